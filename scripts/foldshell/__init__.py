@@ -1,0 +1,1 @@
+"""Folded shell structures: pattern, folding, shell analysis, sizing, and their files."""
