@@ -7,7 +7,8 @@ from typing import Any
 from foldshell.study.config_file import read_config
 from foldshell.study.designs import Design, check_defaults, read_designs
 from foldshell.study.options import Settings
-from foldshell.study.settings import make_settings
+from foldshell.study.schema import validate
+from foldshell.study.settings import config_schema, make_settings
 
 
 def load_study(
@@ -21,7 +22,7 @@ def load_study(
     """
     source = "configuration"
     for file in files:
-        make_settings(read_config(file), str(file))
+        validate(read_config(file), config_schema(), str(file))
         source = f"{file} with --config"
     settings = make_settings(config, source)
     check_defaults(settings, source)

@@ -1,0 +1,53 @@
+"""The panels of a design as rows of a table, and thicknesses as they stand in files."""
+
+from dataclasses import dataclass
+
+import numpy as np
+import numpy.typing as npt
+
+FloatArray = npt.NDArray[np.float64]
+IntArray = npt.NDArray[np.int64]
+DIGITS = 12
+
+
+@dataclass(frozen=True)
+class PanelGrid:
+    """Panels between zig-zags i, i+1 and strips j, j+1; panel p = i (strips - 1) + j."""
+
+    zigzag: IntArray
+    strip: IntArray
+
+    @property
+    def panel(self) -> IntArray:
+        """Panel ids 0, 1, 2, ..."""
+        return np.arange(self.zigzag.size)
+
+
+@dataclass(frozen=True)
+class ThicknessTable:
+    """Columns of the sheet `thickness`, one value a panel in the order of ids.
+
+    thickness and previous in m, utilization and relative change without unit.
+    """
+
+    grid: PanelGrid
+    thickness: FloatArray
+    previous: FloatArray | None = None
+    utilization: FloatArray | None = None
+    change: FloatArray | None = None
+    note: tuple[str, ...] | None = None
+
+
+def make_panel_grid(zigzag: int, strip: int) -> PanelGrid:
+    """Number the (zigzag - 1)(strip - 1) panels between counts of polylines."""
+    rows, columns = np.divmod(np.arange((zigzag - 1) * (strip - 1)), strip - 1)
+    return PanelGrid(rows, columns)
+
+
+def round_thickness(thickness: npt.ArrayLike) -> FloatArray:
+    """Round to 12 significant digits, which survive workbooks and spreadsheets unchanged.
+
+    Writers of .xlsx print 16 digits and spreadsheets keep 15, both fewer than a double may need.
+    """
+    values = np.asarray(thickness, dtype=float)
+    return np.char.mod(f"%.{DIGITS}g", values).astype(float).reshape(values.shape)

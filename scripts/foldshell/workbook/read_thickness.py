@@ -1,0 +1,170 @@
+"""Read the thicknesses from a workbook that a person may have edited."""
+
+import difflib
+import re
+from pathlib import Path
+
+import numpy as np
+
+from foldshell.study.errors import InputError
+from foldshell.workbook.cells import Cell, read_cells
+from foldshell.workbook.package import open_package
+from foldshell.workbook.panels import FloatArray, PanelGrid, round_thickness
+
+SHEET = "thickness"
+UNITS = {"panel": "-", "zigzag": "-", "strip": "-", "thickness": "m"}
+_NUMBER = re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]{1,3})?")
+_HEADER_ROWS = 200
+Rows = dict[int, dict[int, Cell]]
+
+
+def read_thickness(path: str | Path, grid: PanelGrid, least: float, largest: float) -> FloatArray:
+    """Return the thickness (P,) in m of every panel, in the order of panel ids.
+
+    Rows are found by the panel's id and columns by their header, so that shuffled rows, inserted
+    columns and rows above the header do no harm. Raises `InputError` with sheet, cell, value and
+    what is allowed for anything but one number from `least` to `largest` (m) a panel.
+    """
+    package = open_package(path)
+    sheets = package.find_sheets()
+    if SHEET not in sheets:
+        near = difflib.get_close_matches(SHEET, sheets, n=1)
+        hint = f", the nearest is {near[0]!r}" if near else ""
+        raise InputError(f"{path}: sheet {SHEET!r} is missing{hint}")
+    rows = read_cells(package, SHEET, sheets[SHEET])
+    place = f"{path}: sheet {SHEET}"
+    header_row, columns = _find_header(rows, place)
+    _check_units(rows, header_row, columns, place)
+    thickness = np.full(grid.panel.size, np.nan)
+    seen: dict[int, str] = {}
+    for row in sorted(row for row in rows if row > header_row + 1):
+        cells = {name: rows[row].get(column) for name, column in columns.items()}
+        if cells["panel"] is None and cells["thickness"] is None:
+            continue
+        panel = _read_panel(cells["panel"], row, grid, seen, place)
+        _check_indices(cells, panel, grid, place)
+        thickness[panel] = _read_value(cells["thickness"], panel, row, least, largest, place)
+    missing = np.flatnonzero(np.isnan(thickness))
+    if missing.size:
+        raise InputError(
+            f"{place}: panel {missing[0]}: the row is missing ({missing.size} of {thickness.size} "
+            "panels are): one row a panel is due"
+        )
+    return round_thickness(thickness)
+
+
+def _find_header(rows: Rows, place: str) -> tuple[int, dict[str, int]]:
+    """Return the row whose texts name both a panel and a thickness column, and its columns."""
+    for row in sorted(rows)[:_HEADER_ROWS]:
+        texts = {
+            column: cell.value.strip().casefold()
+            for column, cell in rows[row].items()
+            if cell.kind == "text"
+        }
+        if not {"panel", "thickness"} <= set(texts.values()):
+            continue
+        columns: dict[str, int] = {}
+        for column, text in texts.items():
+            if text in columns:
+                reference = rows[row][column].reference
+                raise InputError(f"{place}: cell {reference}: {text!r}: the column stands twice")
+            if text in UNITS:
+                columns[text] = column
+        return row, columns
+    raise InputError(f"{place}: no header row: one with the columns 'panel' and 'thickness' is due")
+
+
+def _check_units(rows: Rows, header_row: int, columns: dict[str, int], place: str) -> None:
+    cell = rows.get(header_row + 1, {}).get(columns["thickness"])
+    if cell is None or cell.kind != "text":
+        raise InputError(
+            f"{place}: row {header_row + 1}: the row of units is missing: it stands below the "
+            "header, with m for the thickness"
+        )
+    for name, column in columns.items():
+        unit = rows[header_row + 1].get(column)
+        text = "" if unit is None else str(unit.value).strip().strip("[]")
+        if text != UNITS[name] and (name == "thickness" or text):
+            reference = "" if unit is None else f"cell {unit.reference}: "
+            raise InputError(
+                f"{place}: {reference}{text!r}: the unit {UNITS[name]!r} is due for {name}"
+            )
+
+
+def _read_panel(
+    cell: Cell | None, row: int, grid: PanelGrid, seen: dict[int, str], place: str
+) -> int:
+    if cell is None:
+        raise InputError(f"{place}: row {row}: a thickness without a panel id: an id is due")
+    number = _to_number(cell)
+    count = grid.panel.size
+    if number is None or number != int(number) or not 0 <= number < count:
+        raise InputError(
+            f"{place}: cell {cell.reference}: {_show(cell)}: unknown panel, 0 to {count - 1} "
+            "are allowed"
+        )
+    panel = int(number)
+    if panel in seen:
+        raise InputError(
+            f"{place}: cell {cell.reference}: {panel}: the panel stands twice, first in "
+            f"{seen[panel]}"
+        )
+    seen[panel] = cell.reference
+    return panel
+
+
+def _check_indices(cells: dict[str, Cell | None], panel: int, grid: PanelGrid, place: str) -> None:
+    """Refuse a row whose indices belong to another panel: a column was moved or sorted alone."""
+    for name in ("zigzag", "strip"):
+        cell = cells.get(name)
+        due = int(getattr(grid, name)[panel])
+        if cell is not None and _to_number(cell) != due:
+            raise InputError(
+                f"{place}: cell {cell.reference}: {_show(cell)}: {name} of panel {panel} is {due}"
+            )
+
+
+def _read_value(
+    cell: Cell | None, panel: int, row: int, least: float, largest: float, place: str
+) -> float:
+    allowed = f"a number in m from {least:g} to {largest:g} is allowed"
+    if cell is None:
+        raise InputError(f"{place}: row {row}: the thickness of panel {panel} is empty: {allowed}")
+    number = _to_number(cell)
+    if number is None or not least * (1 - 1e-12) <= number <= largest * (1 + 1e-12):
+        raise InputError(
+            f"{place}: cell {cell.reference}: {_show(cell)}: {allowed}"
+            + _hint(cell, number, least, largest)
+        )
+    return min(max(number, least), largest)
+
+
+def _to_number(cell: Cell) -> float | None:
+    if cell.kind == "number":
+        return float(cell.value)
+    if cell.kind == "text" and _NUMBER.fullmatch(cell.value.strip()):
+        return float(cell.value)
+    return None
+
+
+def _show(cell: Cell) -> str:
+    if cell.kind in ("number", "date", "percent") and isinstance(cell.value, float):
+        words = {"number": "", "date": "a date, ", "percent": "a percentage, "}
+        return f"{words[cell.kind]}{cell.value:.12g}"
+    if cell.kind in ("error", "no_value"):
+        return f"{'the error ' if cell.kind == 'error' else ''}{cell.value}"
+    return repr(cell.value[:60] if isinstance(cell.value, str) else cell.value)
+
+
+def _hint(cell: Cell, number: float | None, least: float, largest: float) -> str:
+    if number is not None:
+        in_mm = 1000 * least <= number <= 1000 * largest
+        return f", the value looks like mm: write {number / 1000:.12g}" if in_mm else ""
+    text = cell.value.strip() if isinstance(cell.value, str) else ""
+    if re.fullmatch(r"[0-9]+,[0-9]+", text):
+        return f", write {text.replace(',', '.')} with a decimal point"
+    with_unit = re.fullmatch(r"([0-9]+(?:\.[0-9]+)?)\s*(mm|cm|m)", text)
+    if with_unit:
+        metres = float(with_unit[1]) / {"mm": 1000, "cm": 100, "m": 1}[with_unit[2]]
+        return f", write {metres:g} without a unit"
+    return ""

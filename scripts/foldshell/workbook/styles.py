@@ -1,0 +1,212 @@
+"""The look of every workbook, defined once: named formats, print set-up, header and units rows."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+import xlsxwriter
+from xlsxwriter.format import Format
+from xlsxwriter.worksheet import Worksheet
+
+from foldshell.study.files import atomic_path
+
+# A fixed date: the same values give the same bytes.
+_CREATED = datetime(2000, 1, 1, tzinfo=UTC).replace(tzinfo=None)
+_BASE = {"font_name": "Arial", "font_size": 10, "valign": "vcenter"}
+_INK, _RULE = "#1F2937", "#9CA3AF"
+_FORMATS: dict[str, dict[str, Any]] = {
+    "title": {"bold": True, "font_size": 14, "font_color": _INK},
+    "label": {"font_color": _INK},
+    "text": {"align": "left", "indent": 1},
+    "wrap": {"text_wrap": True, "valign": "top"},
+    "header": {
+        "bold": True,
+        "bg_color": "#E5E7EB",
+        "bottom": 1,
+        "bottom_color": _RULE,
+        "indent": 1,
+    },
+    "header_number": {
+        "bold": True,
+        "bg_color": "#E5E7EB",
+        "bottom": 1,
+        "bottom_color": _RULE,
+        "align": "right",
+        "text_wrap": True,
+    },
+    "unit": {"italic": True, "font_color": "#6B7280", "align": "right"},
+    "unit_text": {"italic": True, "font_color": "#6B7280", "align": "left", "indent": 1},
+    "integer": {"num_format": "0", "align": "right"},
+    "metre": {"num_format": "0.0000", "align": "right"},
+    "decimal": {"num_format": "0.000", "align": "right"},
+    "general": {"num_format": "General", "align": "right"},
+    "scientific": {"num_format": "0.0E+00", "align": "right"},
+    "change": {"num_format": "+0.0%;-0.0%;0.0%", "align": "right"},
+    # Blue on pale yellow: the usual mark of a cell that a person may type into.
+    "input": {"num_format": "0.0000", "font_color": "#0000FF", "bg_color": "#FFF9DB"},
+    "good": {
+        "bold": True,
+        "indent": 1,
+        "align": "left",
+        "font_color": "#166534",
+        "bg_color": "#DCFCE7",
+    },
+    "bad": {
+        "bold": True,
+        "indent": 1,
+        "align": "left",
+        "font_color": "#9F1239",
+        "bg_color": "#FFE4E6",
+    },
+    "plain": {"bold": True, "indent": 1, "align": "left"},
+}
+_CONDITIONAL = {"above": {"font_color": "#9F1239", "bg_color": "#FFE4E6"}}
+_UNIT_SUFFIXES = {
+    "_per_area_m": "m3/m2",
+    "_kn_m3": "kN/m3",
+    "_kn_m2": "kN/m2",
+    "_kpa": "kPa",
+    "_m3": "m3",
+    "_m2": "m2",
+    "_mm": "mm",
+    "_m": "m",
+    "_kn": "kN",
+}
+GOOD_VERDICTS = ("converged", "at_minimum_thickness", "pass", "yes", "ok")
+_OPEN_VERDICTS = ("continue", "")
+
+
+class Styles:
+    """The named formats of one workbook; `styles["header"]` makes each on its first use.
+
+    A name with `_left` behind it is the same format, aligned to the left.
+    """
+
+    def __init__(self, book: xlsxwriter.Workbook) -> None:
+        self._book = book
+        self._made: dict[str, Format] = {}
+
+    def __getitem__(self, name: str) -> Format:
+        if name not in self._made:
+            base = name.removesuffix("_left")
+            own = _CONDITIONAL.get(name) or {**_BASE, **_FORMATS[base]}
+            left = {"align": "left", "indent": 1} if base != name else {}
+            self._made[name] = self._book.add_format({**own, **left})
+        return self._made[name]
+
+    def choose_verdict(self, verdict: str) -> Format:
+        """Return green for a good ending, red for a bad one, plain while it goes on."""
+        if verdict in GOOD_VERDICTS:
+            return self["good"]
+        return self["plain"] if verdict in _OPEN_VERDICTS else self["bad"]
+
+
+@contextmanager
+def create_workbook(path: str | Path, title: str) -> Iterator[tuple[xlsxwriter.Workbook, Styles]]:
+    """Yield a new workbook and its formats; `path` appears when the block has succeeded.
+
+    Texts stay texts, also those that begin with "=" or look like numbers or links.
+    """
+    options = {
+        "in_memory": True,
+        "strings_to_formulas": False,
+        "strings_to_numbers": False,
+        "strings_to_urls": False,
+        "default_format_properties": {"font_name": "Arial", "font_size": 10},
+    }
+    with atomic_path(path) as temporary:
+        book = xlsxwriter.Workbook(temporary, options)
+        book.set_properties({"title": title, "author": "foldshell", "created": _CREATED})
+        try:
+            yield book, Styles(book)
+        except BaseException:
+            book.fileclosed = True
+            raise
+        book.close()
+
+
+def add_sheet(book: xlsxwriter.Workbook, name: str, landscape: bool = True) -> Worksheet:
+    """Add a sheet that prints on A4, fitted to the width, with its name and page below."""
+    sheet = book.add_worksheet(name)
+    sheet.set_paper(9)
+    if landscape:
+        sheet.set_landscape()
+    sheet.fit_to_pages(1, 0)
+    sheet.set_margins(left=0.5, right=0.5, top=0.6, bottom=0.7)
+    sheet.set_footer("&L&8&F&C&8&A&R&8&P / &N")
+    sheet.hide_gridlines(2)
+    return sheet
+
+
+def split_unit(key: str) -> tuple[str, str]:
+    """Return the words and the unit of a key: `volume_m3` gives (`volume`, `m3`)."""
+    for suffix, unit in _UNIT_SUFFIXES.items():
+        if key.endswith(suffix):
+            name = key.removesuffix("_m") if suffix == "_per_area_m" else key.removesuffix(suffix)
+            return name.replace("_", " "), unit
+    return key.replace("_", " "), "-"
+
+
+def write_value(sheet: Worksheet, row: int, column: int, value: Any, style: Format) -> None:
+    """Write a number, truth value or text; None leaves an empty cell."""
+    if value is None:
+        sheet.write_blank(row, column, None, style)
+    elif isinstance(value, bool):
+        sheet.write_string(row, column, "yes" if value else "no", style)
+    elif isinstance(value, int | float):
+        sheet.write_number(row, column, value, style)
+    else:
+        sheet.write_string(row, column, str(value), style)
+
+
+def write_pairs(sheet: Worksheet, styles: Styles, row: int, pairs: Mapping[str, Any]) -> int:
+    """Write label, value and unit in three columns, from `row` on; return the next free row.
+
+    A value with the key `verdict` or `state` is coloured by what it says.
+    """
+    for key, value in pairs.items():
+        label, unit = split_unit(key)
+        number = isinstance(value, int | float) and not isinstance(value, bool)
+        style = styles[f"{choose_style(value)}_left"]
+        if key in ("verdict", "state", "crosscheck"):
+            style = styles.choose_verdict(str(value or ""))
+        sheet.write_string(row, 0, label, styles["label"])
+        write_value(sheet, row, 1, value, style)
+        sheet.write_string(row, 2, unit if number and unit != "-" else "", styles["unit_text"])
+        row += 1
+    return row
+
+
+def choose_style(value: Any) -> str:
+    """Return the name of the format that suits a value of unknown meaning."""
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return "text"
+    if isinstance(value, int):
+        return "integer"
+    return "general" if value == 0 or 1e-3 <= abs(value) < 1e7 else "scientific"
+
+
+def write_header(
+    sheet: Worksheet,
+    styles: Styles,
+    row: int,
+    columns: Sequence[tuple[str, str, str, float]],
+) -> None:
+    """Write a header row and a units row of (name, unit, format, width), frozen and repeated."""
+    for index, (name, unit, style, width) in enumerate(columns):
+        text = style in ("text", "wrap")
+        sheet.set_column(index, index, width)
+        sheet.write_string(row, index, name, styles["header" if text else "header_number"])
+        sheet.write_string(row + 1, index, unit, styles["unit_text" if text else "unit"])
+    sheet.freeze_panes(row + 2, 1)
+    sheet.repeat_rows(row, row + 1)
+
+
+def mark_above(
+    sheet: Worksheet, styles: Styles, area: tuple[int, int, int, int], limit: float
+) -> None:
+    """Colour the numbers of an area red that are above a limit."""
+    rule = {"type": "cell", "criteria": ">", "value": limit, "format": styles["above"]}
+    sheet.conditional_format(*area, rule)

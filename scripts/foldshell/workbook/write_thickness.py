@@ -1,0 +1,100 @@
+"""Write the workbook that one analysis of the sizing loop reads."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from foldshell.workbook.panels import FloatArray, ThicknessTable, round_thickness
+from foldshell.workbook.styles import (
+    Styles,
+    add_sheet,
+    create_workbook,
+    mark_above,
+    write_header,
+    write_pairs,
+    write_value,
+)
+
+COLUMNS = [
+    ("panel", "-", "integer", 9.0),
+    ("zigzag", "-", "integer", 9.0),
+    ("strip", "-", "integer", 9.0),
+    ("thickness", "m", "input", 12.0),
+]
+RESULT_COLUMNS = [
+    ("previous", "m", "metre", 12.0),
+    ("utilization", "-", "decimal", 12.0),
+    ("change", "-", "change", 12.0),
+    ("note", "", "text", 36.0),
+]
+_HELP = (
+    "Blue cells of the sheet 'thickness' may be changed: type metres with a decimal point, save, "
+    "and run the workflow again. What follows this iteration is then computed anew."
+)
+
+
+def write_thickness(
+    path: str | Path,
+    table: ThicknessTable,
+    summary: Mapping[str, Any],
+    least: float,
+    largest: float,
+    utilization_max: float = 1.0,
+) -> None:
+    """Write sheet `summary` (label, value, unit) and sheet `thickness` (a row a panel).
+
+    `summary` maps keys with unit suffixes (`volume_m3`) to plain values; least and largest (m)
+    bound the input cells. Thickness is rounded to 12 digits, so that reading gives back exactly
+    `round_thickness(table.thickness)`. Raises `ValueError` for values that are not finite or
+    outside of the bounds.
+    """
+    thickness = round_thickness(table.thickness)
+    inside = np.isfinite(thickness) & (thickness >= least) & (thickness <= largest)
+    if thickness.shape != table.grid.zigzag.shape or not inside.all():
+        raise ValueError(f"one thickness a panel from {least} to {largest} m is due")
+    with create_workbook(path, "Thickness of the panels") as (book, styles):
+        sheet = add_sheet(book, "summary", landscape=False)
+        sheet.set_column(0, 0, 34)
+        sheet.set_column(1, 1, 44)
+        sheet.set_column(2, 2, 10)
+        sheet.write_string(0, 0, "Thickness of the panels", styles["title"])
+        row = write_pairs(sheet, styles, 2, summary)
+        sheet.merge_range(row + 1, 0, row + 3, 2, _HELP, styles["wrap"])
+        _write_panels(add_sheet(book, "thickness"), styles, table, thickness)
+        _mark_input(book, styles, thickness.size, least, largest, utilization_max)
+
+
+def _write_panels(sheet: Any, styles: Styles, table: ThicknessTable, thickness: FloatArray) -> None:
+    values: list[Any] = [table.grid.panel, table.grid.zigzag, table.grid.strip, thickness]
+    results = [table.previous, table.utilization, table.change, table.note]
+    columns = list(COLUMNS)
+    if any(result is not None for result in results):
+        columns += RESULT_COLUMNS
+        values += [[None] * thickness.size if result is None else result for result in results]
+    write_header(sheet, styles, 0, columns)
+    sheet.autofilter(1, 0, thickness.size + 1, len(columns) - 1)
+    for column, (content, (_, _, style, _)) in enumerate(zip(values, columns, strict=True)):
+        plain = content.tolist() if isinstance(content, np.ndarray) else content
+        for row, value in enumerate(plain, start=2):
+            write_value(sheet, row, column, value, styles[style])
+
+
+def _mark_input(
+    book: Any, styles: Styles, count: int, least: float, largest: float, limit: float
+) -> None:
+    sheet = book.get_worksheet_by_name("thickness")
+    allowed = f"a number in m from {least:g} to {largest:g}"
+    rule = {
+        "validate": "decimal",
+        "criteria": "between",
+        "minimum": least,
+        "maximum": largest,
+        "input_title": "Thickness",
+        "input_message": f"Thickness of this panel, {allowed}.",
+        "error_title": "Thickness",
+        "error_message": f"Only {allowed} is allowed.",
+    }
+    sheet.data_validation(2, 3, count + 1, 3, rule)
+    mark_above(sheet, styles, (2, 5, count + 1, 5), limit)
