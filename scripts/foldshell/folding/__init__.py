@@ -1,0 +1,1 @@
+"""Folding sheets onto target surfaces."""

@@ -1,0 +1,1 @@
+"""Crease patterns: geometry, topology, folding path, files."""

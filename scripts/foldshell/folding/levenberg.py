@@ -1,0 +1,90 @@
+"""Levenberg-Marquardt on sparse normal equations."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from foldshell.folding.normal_equations import NormalEquations, NotPositiveDefinite
+from foldshell.folding.terms import Term
+
+
+@dataclass(frozen=True)
+class Minimum:
+    """Where a minimisation stopped, and why.
+
+    `cost` is half the sum of squares, `gradient` its largest slope, `converged` tells whether
+    a tolerance was met rather than the limit on iterations.
+    """
+
+    vertices: np.ndarray
+    cost: float
+    gradient: float
+    iterations: int
+    converged: bool
+    reason: str
+
+
+def minimise_terms(
+    terms: Sequence[Term],
+    start: np.ndarray,
+    *,
+    max_iterations: int,
+    cost_tolerance: float,
+    step_tolerance: float,
+    damping: float = 1e-3,
+    equations: NormalEquations | None = None,
+) -> Minimum:
+    """argmin over vertices (V, 3) of 1/2 sum r2, from `start`.
+
+    Marquardt's damping on the diagonal, with Nielsen's update (IMM report 05, DTU, 1999). Stops
+    when the cost falls by less than `cost_tolerance` of itself, or no vertex moves further than
+    `step_tolerance` [m].
+    """
+    equations = equations or NormalEquations([t.columns for t in terms], start.size)
+    vertices, growth = start, 2.0
+    rows = [term.evaluate(vertices) for term in terms]
+    cost, reason, iteration = half_squares(rows), "", 0
+    matrix, gradient = equations.assemble(rows)
+    while not reason and iteration < max_iterations:
+        iteration += 1
+        step = _solve_step(equations, matrix, gradient, damping)
+        if step is None:
+            damping, growth, trial_cost = damping * growth, growth * 2, np.inf
+        else:
+            trial = vertices + step.reshape(-1, 3)
+            rows = [term.evaluate(trial) for term in terms]
+            trial_cost = half_squares(rows)
+        if trial_cost < cost:
+            shift = damping * equations.diagonal(matrix)
+            gain = (cost - trial_cost) / (0.5 * step @ (shift * step - gradient))
+            damping, growth = damping * max(1 / 5, 1 - (2 * gain - 1) ** 3), 2.0
+            if cost - trial_cost <= cost_tolerance * cost:
+                reason = f"cost fell by less than {cost_tolerance:g} of itself"
+            vertices, cost = trial, trial_cost
+            matrix, gradient = equations.assemble(rows)
+        elif step is not None:
+            damping, growth = damping * growth, growth * 2
+        if step is not None and np.abs(step).max() <= step_tolerance:
+            reason = reason or f"no vertex moved further than {step_tolerance:g} m"
+    return Minimum(
+        vertices, cost, float(np.abs(gradient).max()), iteration, bool(reason),
+        reason or f"stopped at the limit of {max_iterations} iterations",
+    )  # fmt: skip
+
+
+def half_squares(rows: Sequence[tuple[np.ndarray, np.ndarray]]) -> float:
+    """1/2 sum of squared residuals; infinite where one is not finite."""
+    cost = 0.5 * sum(float(residual @ residual) for residual, _ in rows)
+    return cost if np.isfinite(cost) else np.inf
+
+
+def _solve_step(
+    equations: NormalEquations, matrix: np.ndarray, gradient: np.ndarray, damping: float
+) -> np.ndarray | None:
+    diagonal = equations.diagonal(matrix)
+    shift = damping * np.maximum(diagonal, 1e-12 * diagonal.max())
+    try:
+        return equations.solve(matrix, shift, -gradient)
+    except NotPositiveDefinite:
+        return None

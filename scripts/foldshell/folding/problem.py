@@ -1,0 +1,93 @@
+"""The folding problem in paper mode: start, weights, terms."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from foldshell.folding.terms import Attraction, Hinge, PlanEdge, Stretch, Term
+from foldshell.pattern.angles import measure_hinges
+from foldshell.pattern.grid import find_hinges
+from foldshell.pattern.sheet import Sheet
+
+STEEP = 0.8  # height / span from which the creases are held more firmly
+
+
+@dataclass(frozen=True)
+class Weights:
+    """Weights of the squared, non-dimensional residuals."""
+
+    stretch: float = 10.0
+    hinge: float = 0.01
+    hinge_steep: float = 0.03
+    neutral_fold: float = 0.01
+    attraction: float = 100.0
+    plan_edge: float = 0.03
+
+
+def attracted_vertices(sheet: Sheet, attract: str) -> np.ndarray:
+    """Rows of the lowest or the highest vertices: even or odd zig-zags."""
+    if attract not in ("lowest", "highest"):
+        raise ValueError(f"attract {attract!r}: must be lowest or highest")
+    return np.flatnonzero(sheet.grid.zigzag % 2 == (attract == "highest"))
+
+
+def reference_length(sheet: Sheet) -> float:
+    """ell = sqrt(a b), from the mean edge lengths of both families [m]."""
+    grid = sheet.grid
+    along_zigzag = grid.zigzags * (grid.strips - 1)
+    lengths = edge_lengths(sheet.flat, grid.edges)
+    side_b = lengths[:along_zigzag].mean()
+    side_a = lengths[along_zigzag : grid.neutral.start].mean()
+    return float(np.sqrt(side_a * side_b))
+
+
+def edge_lengths(vertices: np.ndarray, edges: np.ndarray) -> np.ndarray:
+    """Length (E,) [m] of edges (E, 2)."""
+    return np.linalg.norm(vertices[edges[:, 1]] - vertices[edges[:, 0]], axis=1)
+
+
+def place_sheet(sheet: Sheet, target, attract: str) -> np.ndarray:
+    """Lay the rest state on the target: vertices (V, 3) [m].
+
+    Plan coordinates become arc lengths of the target's two central sections; heights above
+    the attracted vertices are set off along the surface normal.
+    """
+    rest = sheet.rest - 0.5 * (sheet.rest.min(axis=0) + sheet.rest.max(axis=0))
+    x = target.walk_section(0, rest[:, 0])
+    y = target.walk_section(1, rest[:, 1])
+    height = sheet.rest[:, 2] - sheet.rest[attracted_vertices(sheet, attract), 2].mean()
+    base = np.column_stack([x, y, target.evaluate_height(x, y)])
+    return base + height[:, None] * target.find_normals(x, y)
+
+
+def build_terms(sheet: Sheet, target, attract: str, weights: Weights) -> list[Term]:
+    """Stretch, crease hinges, neutral folds, attraction, plan edges; in that order."""
+    grid = sheet.grid
+    hinges = find_hinges(grid.facets, grid.edges)
+    neutral = grid.assignments[hinges.edges] == "F"
+    rest = measure_hinges(sheet.rest, hinges.vertices)
+    steep = target.height >= STEEP * target.span
+    crease_weight = weights.hinge_steep if steep else weights.hinge
+    ell = reference_length(sheet)
+    return [
+        Stretch(grid.edges, edge_lengths(sheet.flat, grid.edges), weights.stretch),
+        Hinge(hinges.vertices[~neutral], rest[~neutral], crease_weight),
+        Hinge(hinges.vertices[neutral], np.zeros(neutral.sum()), weights.neutral_fold),
+        Attraction(attracted_vertices(sheet, attract), target, ell, weights.attraction),
+        hold_plan_edges(sheet, target.span, ell, weights.plan_edge),
+    ]
+
+
+def hold_plan_edges(sheet: Sheet, span: float, reference: float, weight: float) -> PlanEdge:
+    """Hold every border vertex near its edge of the square plan; corners near both."""
+    grid = sheet.grid
+    vertices, axes, positions = [], [], []
+    for axis, index, last in ((0, grid.strip, grid.strips - 1), (1, grid.zigzag, grid.zigzags - 1)):
+        for border, side in ((0, -1), (last, 1)):
+            chosen = np.flatnonzero(index == border)
+            vertices.append(chosen)
+            axes.append(np.full(len(chosen), axis))
+            positions.append(np.full(len(chosen), side * span / 2))
+    return PlanEdge(
+        np.concatenate(vertices), np.concatenate(axes), np.concatenate(positions), reference, weight
+    )

@@ -1,0 +1,135 @@
+"""Target surfaces z = c + p x2 + q y2 + r x y: closest points, sections, arc lengths."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class Quadric:
+    """z = apex + along_x x2 + along_y y2 + twist x y over a square plan of side `span` [m]."""
+
+    name: str
+    span: float
+    height: float
+    apex: float
+    along_x: float
+    along_y: float
+    twist: float
+
+    def evaluate_height(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """z(x, y) [m]."""
+        return self.apex + self.along_x * x**2 + self.along_y * y**2 + self.twist * x * y
+
+    def find_normals(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Upward unit normals (N, 3)."""
+        slope_x, slope_y = self._slopes(x, y)
+        normals = np.stack([-slope_x, -slope_y, np.ones_like(slope_x)], axis=-1)
+        return normals / np.linalg.norm(normals, axis=-1, keepdims=True)
+
+    def _slopes(self, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        return 2 * self.along_x * x + self.twist * y, 2 * self.along_y * y + self.twist * x
+
+    def find_closest(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """argmin |p - s(x, y)|: closest points (N, 3) [m] and upward unit normals there.
+
+        Newton's method on the plan coordinates from the point's own; where the Hessian is not
+        positive definite its Gauss-Newton part stands in. Long steps are halved until the
+        distance falls; short ones are taken as they are, since there the distance is flat.
+        """
+        plan = points[:, :2].copy()
+        for _ in range(60):
+            step = self._newton_step(points, plan)
+            length = np.abs(step).max(axis=1, initial=0.0)
+            if length.max(initial=0.0) > 1e-3 * self.span:
+                step = self._shorten(points, plan, step, length > 1e-3 * self.span)
+            plan = plan + step
+            if length.max(initial=0.0) <= 1e-9 * self.span:  # quadratic: the next is round-off
+                break
+        x, y = plan.T
+        return np.column_stack([plan, self.evaluate_height(x, y)]), self.find_normals(x, y)
+
+    def _shorten(
+        self, points: np.ndarray, plan: np.ndarray, step: np.ndarray, long: np.ndarray
+    ) -> np.ndarray:
+        distance = self._squared_distance(points, plan)
+        scale = np.ones(len(points))
+        for _ in range(20):
+            trial = plan + scale[:, None] * step
+            worse = long & (self._squared_distance(points, trial) > distance)
+            if not worse.any():
+                break
+            scale[worse] /= 2
+        return scale[:, None] * step
+
+    def _squared_distance(self, points: np.ndarray, plan: np.ndarray) -> np.ndarray:
+        rise = points[:, 2] - self.evaluate_height(plan[:, 0], plan[:, 1])
+        return ((points[:, :2] - plan) ** 2).sum(axis=1) + rise**2
+
+    def _newton_step(self, points: np.ndarray, plan: np.ndarray) -> np.ndarray:
+        x, y = plan.T
+        slope_x, slope_y = self._slopes(x, y)
+        rise = points[:, 2] - self.evaluate_height(x, y)
+        force_x = points[:, 0] - x + rise * slope_x
+        force_y = points[:, 1] - y + rise * slope_y
+        xx = 1 + slope_x**2 - 2 * rise * self.along_x
+        yy = 1 + slope_y**2 - 2 * rise * self.along_y
+        xy = slope_x * slope_y - rise * self.twist
+        weak = (xx <= 0) | (xx * yy - xy**2 <= 1e-3)
+        xx = np.where(weak, 1 + slope_x**2, xx)
+        yy = np.where(weak, 1 + slope_y**2, yy)
+        xy = np.where(weak, slope_x * slope_y, xy)
+        determinant = xx * yy - xy**2
+        return np.column_stack(
+            [(yy * force_x - xy * force_y), (xx * force_y - xy * force_x)]
+        ) / determinant[:, None]
+
+    def section_lengths(self) -> tuple[float, float]:
+        """Arc lengths [m] of the central sections y = 0 and x = 0 over the span."""
+        half = self.span / 2
+        return 2 * _arc_length(half, self.along_x), 2 * _arc_length(half, self.along_y)
+
+    def walk_section(self, axis: int, arc: np.ndarray) -> np.ndarray:
+        """Coordinate (x for axis 0, y for axis 1) at signed arc length from the centre [m]."""
+        bend = (self.along_x, self.along_y)[axis]
+        coordinate = arc.astype(float)
+        for _ in range(60):
+            speed = np.sqrt(1 + (2 * bend * coordinate) ** 2)
+            step = (_arc_length(coordinate, bend) - arc) / speed
+            coordinate = coordinate - step
+            if np.abs(step).max(initial=0.0) <= 1e-15 * self.span:
+                break
+        return coordinate
+
+
+def _arc_length(x, bend: float):
+    """Length of z = bend x2 from 0 to x: (x sqrt(1 + k2 x2) + asinh(k x) / k) / 2, k = 2 bend."""
+    slope = 2 * bend * x
+    if bend == 0:
+        return x
+    return (x * np.sqrt(1 + slope**2) + np.arcsinh(slope) / (2 * bend)) / 2
+
+
+SURFACES = ("paraboloid", "hypar", "hypar_twist", "arch", "arch_strip")
+
+
+def make_quadric(name: str, span: float, height: float) -> Quadric:
+    """Build a target of the study over a square plan [m].
+
+    paraboloid: corners at 0, apex `height`; hypar: saddle with total range `height`;
+    hypar_twist: the same range, twisted; arch: profile along zig-zags, springings at 0 on the
+    strip edges; arch_strip: the other way round.
+    """
+    if not (span > 0 and height > 0):
+        raise ValueError(f"span {span}, height {height}: must be positive")
+    unit = height / (span / 2) ** 2
+    coefficients = {
+        "paraboloid": (height, -unit / 2, -unit / 2, 0.0),
+        "hypar": (height / 2, unit / 2, -unit / 2, 0.0),
+        "hypar_twist": (height / 2, 0.0, 0.0, unit / 2),
+        "arch": (height, -unit, 0.0, 0.0),
+        "arch_strip": (height, 0.0, -unit, 0.0),
+    }
+    if name not in coefficients:
+        raise ValueError(f"surface {name!r}: must be one of {', '.join(SURFACES)}")
+    return Quadric(name, float(span), float(height), *coefficients[name])

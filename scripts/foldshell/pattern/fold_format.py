@@ -1,0 +1,147 @@
+"""FOLD 1.2 files (Demaine, Ku and Lang, A new file standard, 2016): write and read sheets.
+
+The top frame is the flat crease pattern; `file_frames` are folded states that inherit it.
+Edge fold angles are in degrees, valley positive; own keys start with `foldshell:`.
+"""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from foldshell.pattern.angles import measure_folds
+from foldshell.pattern.grid import Grid, build_grid
+from foldshell.pattern.sheet import Frame, Sheet
+from foldshell.study.errors import InputError
+from foldshell.study.files import write_json
+
+REST_TITLE = "rest"
+
+
+def write_fold(path: str | Path, sheet: Sheet, title: str) -> None:
+    """Write a sheet as a FOLD file, whole or not at all."""
+    write_json(path, describe_sheet(sheet, title))
+
+
+def describe_sheet(sheet: Sheet, title: str) -> dict[str, Any]:
+    """Build the FOLD dictionary of a sheet."""
+    grid = sheet.grid
+    rest = [] if sheet.kind in ("smooth", "flat") else [Frame(REST_TITLE, sheet.rest)]
+    return {
+        "file_spec": 1.2,
+        "file_creator": "foldshell",
+        "file_title": title,
+        "file_classes": ["singleModel"],
+        "frame_title": "crease pattern",
+        "frame_classes": ["creasePattern"],
+        "frame_attributes": ["2D", "manifold", "orientable", "nonSelfIntersecting"],
+        "frame_unit": "m",
+        "vertices_coords": sheet.flat[:, :2].tolist(),
+        "edges_vertices": grid.edges.tolist(),
+        "edges_assignment": grid.assignments.tolist(),
+        "edges_foldAngle": _fold_angles(sheet.flat, grid),
+        "faces_vertices": grid.facets.tolist(),
+        "foldshell:kind": sheet.kind,
+        "foldshell:settings": sheet.settings,
+        "foldshell:zigzag": grid.zigzag.tolist(),
+        "foldshell:strip": grid.strip.tolist(),
+        "foldshell:panels": grid.quads.tolist(),
+        "file_frames": [_describe_frame(frame, grid) for frame in (*rest, *sheet.path)],
+    }
+
+
+def _describe_frame(frame: Frame, grid: Grid) -> dict[str, Any]:
+    return {
+        "frame_title": frame.title,
+        "frame_classes": ["foldedForm"],
+        "frame_attributes": ["3D", "manifold", "orientable"],
+        "frame_parent": 0,
+        "frame_inherit": True,
+        "frame_unit": "m",
+        "vertices_coords": frame.vertices.tolist(),
+        "edges_foldAngle": _fold_angles(frame.vertices, grid),
+    }
+
+
+def _fold_angles(vertices: np.ndarray, grid: Grid) -> list[float | None]:
+    """Degrees; the border, which folds nothing, has null as the format asks."""
+    degrees = np.degrees(measure_folds(vertices, grid)) + 0.0
+    border = grid.assignments == "B"
+    return [None if b else float(d) for d, b in zip(degrees, border, strict=True)]
+
+
+def read_fold(path: str | Path) -> Sheet:
+    """Read a FOLD file written by `write_fold`.
+
+    Raises InputError when a field is missing or does not describe a crease grid.
+    """
+    try:
+        data = json.loads(Path(path).read_text(encoding="utf-8"))
+    except FileNotFoundError:
+        raise InputError(f"{path}: no such file: a FOLD file is needed") from None
+    except (UnicodeDecodeError, json.JSONDecodeError) as error:
+        raise InputError(f"{path}: not JSON ({error}): a FOLD 1.2 file is needed") from None
+    if not isinstance(data, dict):
+        raise InputError(f"{path}: top level: a {type(data).__name__}: must be an object")
+    grid = _read_grid(path, data)
+    flat = _read_vertices(path, data, "vertices_coords", grid)
+    frames = tuple(
+        Frame(str(frame.get("frame_title", k)), _read_vertices(path, frame, f"frame {k}", grid))
+        for k, frame in enumerate(data.get("file_frames", []), start=1)
+    )
+    rest = [frame.vertices for frame in frames if frame.title == REST_TITLE]
+    return Sheet(
+        kind=str(data.get("foldshell:kind", "miura")),
+        grid=grid,
+        flat=flat,
+        rest=rest[0] if rest else flat,
+        path=tuple(frame for frame in frames if frame.title != REST_TITLE),
+        settings=data.get("foldshell:settings", {}),
+    )
+
+
+def _read_grid(path: str | Path, data: dict[str, Any]) -> Grid:
+    zigzag, strip = (_read_integers(path, data, f"foldshell:{k}") for k in ("zigzag", "strip"))
+    if not (len(zigzag) == len(strip) > 0):
+        raise InputError(
+            f"{path}: foldshell:strip: {len(strip)} entries: as many as foldshell:zigzag"
+        )
+    zigzags, strips = int(zigzag.max()) + 1, int(strip.max()) + 1
+    if zigzags < 3 or strips < 3:
+        raise InputError(f"{path}: foldshell:zigzag: {zigzags} x {strips} polylines: at least 3")
+    grid = build_grid(zigzags, strips)
+    expected = {"foldshell:zigzag": grid.zigzag, "foldshell:strip": grid.strip,
+                "edges_vertices": grid.edges, "faces_vertices": grid.facets}  # fmt: skip
+    for key, value in expected.items():
+        if not np.array_equal(_read_integers(path, data, key), value):
+            raise InputError(f"{path}: {key}: not the crease grid that this project writes")
+    if list(data.get("edges_assignment", [])) != grid.assignments.tolist():
+        raise InputError(f"{path}: edges_assignment: not those of a Miura-like grid")
+    return grid
+
+
+def _read_integers(path: str | Path, data: dict[str, Any], key: str) -> np.ndarray:
+    if key not in data:
+        raise InputError(f"{path}: {key}: missing: a list of integers is needed")
+    try:
+        values = np.array(data[key])
+    except ValueError:
+        values = np.array(None)
+    if values.ndim == 0 or not np.issubdtype(values.dtype, np.integer):
+        raise InputError(f"{path}: {key}: not integers: a list of integers is needed")
+    return values
+
+
+def _read_vertices(path: str | Path, data: dict[str, Any], where: str, grid: Grid) -> np.ndarray:
+    try:
+        values = np.array(data.get("vertices_coords"), dtype=float)
+    except (TypeError, ValueError):
+        values = np.empty(0)
+    if values.ndim != 2 or values.shape[0] != len(grid.zigzag) or values.shape[1] not in (2, 3):
+        raise InputError(
+            f"{path}: {where}: {values.shape}: {len(grid.zigzag)} rows of 2 or 3 coordinates"
+        )
+    if not np.isfinite(values).all():
+        raise InputError(f"{path}: {where}: not finite: coordinates must be numbers")
+    return np.column_stack([values, np.zeros((len(values), 3 - values.shape[1]))])

@@ -1,0 +1,127 @@
+"""Standard Miura pattern: flat and folded closed forms.
+
+Schenk and Guest, PNAS 110 (2013) 3276, eq. 1-4: unit cell of H, S, L, V.
+"""
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from foldshell.pattern.grid import Grid, build_grid
+
+
+@dataclass(frozen=True)
+class Miura:
+    """Sides [m] of a panel, its acute angle [rad], and the numbers of polylines.
+
+    `side_a` joins neighbouring zig-zags (runs along a strip), `side_b` neighbouring strips.
+    """
+
+    side_a: float
+    side_b: float
+    sector_angle: float
+    zigzags: int
+    strips: int
+
+    def __post_init__(self) -> None:
+        if not (self.side_a > 0 and self.side_b > 0):
+            raise ValueError(f"sides {self.side_a}, {self.side_b}: must be positive")
+        if not 0 < self.sector_angle < math.pi / 2:
+            raise ValueError(f"sector angle {self.sector_angle}: must lie in (0, pi/2)")
+
+    @property
+    def grid(self) -> Grid:
+        """Panels, facets, edges and fold directions."""
+        return build_grid(self.zigzags, self.strips)
+
+
+@dataclass(frozen=True)
+class Cell:
+    """Half periods of a folded unit [m]: across strips, across zig-zags, offset, height."""
+
+    across_strips: float  # S
+    across_zigzags: float  # L
+    offset: float  # V
+    height: float  # H
+
+
+def fold_cell(pattern: Miura, fold_angle: float) -> Cell:
+    """H = a sin t sin g, S = b cos t tan g / r, L = a sqrt(1 - sin2 t sin2 g), V = b / r.
+
+    With r = sqrt(1 + cos2 t tan2 g); t = `fold_angle` is a facet's angle to the plane,
+    0 flat, pi/2 folded flat.
+    """
+    a, b, gamma = pattern.side_a, pattern.side_b, pattern.sector_angle
+    # Multiplied through by cos g, so that g near 90 degrees stays finite; the square root is
+    # written as a sum of squares, so that nothing cancels near the folded state.
+    steep = math.cos(fold_angle) * math.sin(gamma)
+    root = math.hypot(math.cos(gamma), steep)
+    return Cell(
+        across_strips=b * steep / root,
+        across_zigzags=a * root,
+        offset=b * math.cos(gamma) / root,
+        height=a * math.sin(fold_angle) * math.sin(gamma),
+    )
+
+
+def place_cells(cell: Cell, zigzags: int, strips: int) -> np.ndarray:
+    """X(i, j) = (j S, i L + (j odd) V, (i odd) H): vertices (V, 3) [m]."""
+    row, column = np.divmod(np.arange(zigzags * strips), strips)
+    return np.column_stack(
+        [
+            column * cell.across_strips,
+            row * cell.across_zigzags + (column % 2) * cell.offset,
+            (row % 2) * cell.height,
+        ]
+    )
+
+
+def flat_vertices(pattern: Miura) -> np.ndarray:
+    """x = j b sin g, y = i a + (j odd) b cos g, z = 0: vertices (V, 3) [m]."""
+    return folded_vertices(pattern, 0.0)
+
+
+def folded_vertices(pattern: Miura, fold_angle: float) -> np.ndarray:
+    """Vertices (V, 3) [m] of the folded planar state at `fold_angle` [rad]."""
+    return place_cells(fold_cell(pattern, fold_angle), pattern.zigzags, pattern.strips)
+
+
+def rest_fold_angle(sector_angle: float) -> float:
+    """cos t tan g = 1: the state whose in-plane Poisson's ratio is -1 [rad].
+
+    There the folded sheet changes size alike in both directions, and both curvatures of its
+    saddle have the same size. Exists for sector angles above 45 degrees.
+    """
+    if not math.pi / 4 < sector_angle < math.pi / 2:
+        raise ValueError(f"sector angle {sector_angle}: the rest state needs (pi/4, pi/2)")
+    return math.acos(1.0 / math.tan(sector_angle))
+
+
+def poissons_ratio(sector_angle: float, fold_angle: float) -> float:
+    """-eps_L / eps_S = -cos2 t tan2 g, in plane; bending has the opposite sign."""
+    return -((math.cos(fold_angle) * math.tan(sector_angle)) ** 2)
+
+
+def size_miura(
+    length_across_strips: float,
+    length_across_zigzags: float,
+    sector_angle: float,
+    zigzags: int,
+    strips: int,
+) -> Miura:
+    """Choose sides so that the rest state measures the two given lengths [m].
+
+    (strips - 1) S = first, (zigzags - 1) L + V = second.
+    """
+    rest = rest_fold_angle(sector_angle)
+    unit = fold_cell(Miura(1.0, 1.0, sector_angle, zigzags, strips), rest)
+    side_b = length_across_strips / ((strips - 1) * unit.across_strips)
+    rows = length_across_zigzags - side_b * unit.offset
+    if rows <= 0:
+        raise ValueError(
+            f"strips {strips}: too few for zig-zags {zigzags}, one panel is longer than the span"
+        )
+    return Miura(
+        rows / ((zigzags - 1) * unit.across_zigzags), side_b, sector_angle, zigzags, strips
+    )

@@ -1,0 +1,54 @@
+"""A sheet to be folded: flat state, rest state, and the frames of its folding path."""
+
+import math
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from foldshell.pattern.grid import Grid
+from foldshell.pattern.miura import Miura, flat_vertices, folded_vertices, rest_fold_angle
+
+
+@dataclass(frozen=True)
+class Frame:
+    """One folded state: name and vertices (V, 3) [m]."""
+
+    title: str
+    vertices: np.ndarray
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """A crease grid with its flat state and the rest state that folding starts from.
+
+    `kind` is miura, a derivative's name, smooth or flat; `settings` is plain data to record.
+    """
+
+    kind: str
+    grid: Grid
+    flat: np.ndarray
+    rest: np.ndarray
+    path: tuple[Frame, ...] = ()
+    settings: dict = field(default_factory=dict)
+
+
+def make_miura_sheet(pattern: Miura, frames: int = 9) -> Sheet:
+    """Standard Miura sheet with `frames` states of its path, flat to nearly folded flat."""
+    angles = np.linspace(0, math.pi / 2, frames + 1)[:-1] if frames else []
+    path = tuple(
+        Frame(f"folded {math.degrees(angle):.1f} deg", folded_vertices(pattern, angle))
+        for angle in angles
+    )
+    return Sheet(
+        kind="miura",
+        grid=pattern.grid,
+        flat=flat_vertices(pattern),
+        rest=folded_vertices(pattern, rest_fold_angle(pattern.sector_angle)),
+        path=path,
+        settings={
+            "side_a_m": pattern.side_a,
+            "side_b_m": pattern.side_b,
+            "sector_angle_deg": math.degrees(pattern.sector_angle),
+            "rest_fold_angle_deg": math.degrees(rest_fold_angle(pattern.sector_angle)),
+        },
+    )
