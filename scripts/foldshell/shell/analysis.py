@@ -1,0 +1,206 @@
+"""The shell analysis of one thickness vector: what Karamba did in the paper's loop."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from foldshell.shell.assembly import LowerPattern, assemble_stiffness, find_pattern
+from foldshell.shell.buckling import BucklingResult, find_buckling_factors
+from foldshell.shell.geometric import apply_geometric, assemble_geometric, geometric_operator
+from foldshell.shell.linear_solver import Factor, NotPositiveDefiniteError, factorise
+from foldshell.shell.loads import Loads, combination_matrix, nodal_forces, surface_loads
+from foldshell.shell.material import Material
+from foldshell.shell.mesh import ShellMesh
+from foldshell.shell.second_order import SecondOrderResult, solve_second_order
+from foldshell.shell.stiffness import ShellOperators, build_operators
+from foldshell.shell.stress import membrane_forces
+
+
+@dataclass(frozen=True)
+class AnalysisOptions:
+    """How to analyse; see `solve_second_order` and `find_buckling_factors` for the tolerances."""
+
+    second_order: bool = True
+    tolerance: float = 1e-8
+    iterations_max: int = 60
+    solver: str = "cholmod"
+
+
+@dataclass(frozen=True)
+class ShellModel:
+    """A geometry ready for any thickness: mesh, operators, pattern, supported nodes."""
+
+    mesh: ShellMesh
+    operators: ShellOperators
+    pattern: LowerPattern
+    supported_nodes: np.ndarray
+
+
+@dataclass(frozen=True)
+class AnalysisResult:
+    """Displacements and forces of every combination.
+
+    Attributes
+    ----------
+    state : "ok", "unstable" (a buckling factor below 1), "mechanism" (K is not positive definite)
+        or "not_converged"; `reason` says more
+    names : combination names; c of them
+    displacement : (dofs, c) m and rad, second order where asked for
+    linear : (dofs, c) first order
+    case_force : (E, 3, m, cases) first-order membrane forces of the load cases, kN/m
+    loads : (dofs, c) kN
+    buckling : factors and modes (free, c), or None
+    second_order : iterations and residual, or None
+    place : node near which a mechanism shows, else None
+    """
+
+    state: str
+    reason: str
+    names: tuple[str, ...]
+    displacement: np.ndarray
+    linear: np.ndarray
+    loads: np.ndarray
+    buckling: BucklingResult | None = None
+    second_order: SecondOrderResult | None = None
+    place: int | None = None
+    notes: dict = field(default_factory=dict)
+
+
+def build_model(
+    mesh: ShellMesh, supported_nodes: np.ndarray, poissons_ratio: float
+) -> ShellModel:
+    """Build what depends on the geometry only.
+
+    Raises
+    ------
+    ValueError
+        if fewer than three nodes, or only nodes on one line, are supported.
+    """
+    supported = np.asarray(supported_nodes, dtype=int)
+    spread = np.linalg.svd(
+        mesh.nodes[supported] - mesh.nodes[supported].mean(axis=0), compute_uv=False
+    )
+    if len(supported) < 3 or spread[1] < 1e-9 * spread[0]:
+        raise ValueError("the supports lie on one line and leave a rotation about it free")
+    operators = build_operators(mesh, poissons_ratio)
+    return ShellModel(mesh, operators, find_pattern(operators, supported), supported)
+
+
+def analyse_shell(
+    model: ShellModel,
+    thickness: np.ndarray,
+    material: Material,
+    loads: Loads,
+    combinations: Mapping[str, Mapping[str, float]],
+    options: AnalysisOptions | None = None,
+    start_modes: np.ndarray | None = None,
+) -> AnalysisResult:
+    """Factorise K once; first order, buckling factors and second order of all combinations.
+
+    Parameters
+    ----------
+    thickness : (E,) m
+    start_modes : (free, c) buckling modes of an earlier, similar state
+    """
+    options = options or AnalysisOptions()
+    names = tuple(combinations)
+    surface = surface_loads(
+        model.operators.geometry.frame[:, 2], thickness, material.unit_weight, loads
+    )
+    cases = nodal_forces(model.operators, surface)
+    factors = combination_matrix(combinations)
+    try:
+        solution = _Solution(model, thickness, material, options.solver)
+    except NotPositiveDefiniteError as error:
+        return _mechanism(model, names, cases @ factors, error)
+    linear_cases = solution.solve(cases)
+    linear = linear_cases @ factors
+    total = cases @ factors
+    if not options.second_order:
+        return AnalysisResult("ok", "first order only", names, linear, linear, total)
+    buckling = solution.buckling(linear_cases, factors, start_modes)
+    lowest = int(np.argmin(buckling.factors))
+    if buckling.factors[lowest] <= 1:
+        reason = f"buckling factor {buckling.factors[lowest]:.4g} of {names[lowest]} is below 1"
+        return AnalysisResult("unstable", reason, names, linear, linear, total, buckling)
+    second = solution.second_order(linear, options)
+    displacement = np.zeros_like(linear)
+    displacement[model.pattern.free] = second.displacement
+    worst = int(np.argmax(second.residual))
+    reason = "" if second.converged else (
+        f"second order of {names[worst]} stands at a relative change of "
+        f"{second.residual[worst]:.1e} after {second.iterations} iterations"
+    )  # fmt: skip
+    state = "ok" if second.converged and buckling.converged else "not_converged"
+    if second.converged and not buckling.converged:
+        reason = f"buckling factors still change by {buckling.change.max():.1e}"
+    return AnalysisResult(
+        state, reason, names, displacement, linear, total, buckling, second
+    )
+
+
+class _Solution:
+    """K factorised for one thickness vector, and the three ways in which it is used."""
+
+    def __init__(self, model, thickness, material, solver) -> None:
+        self._model, self._thickness = model, thickness
+        self._modulus = material.youngs_modulus
+        values = assemble_stiffness(model.operators, model.pattern, thickness, self._modulus)
+        self._factor: Factor = factorise(model.pattern, values, solver)
+        self._geometric = geometric_operator(model.operators)
+        self._free = model.pattern.free
+
+    def solve(self, forces: np.ndarray) -> np.ndarray:
+        """Return first-order displacements (dofs, c)."""
+        displacement = np.zeros_like(forces)
+        displacement[self._free] = self._factor.solve(forces[self._free])
+        return displacement
+
+    def forces(self, displacement: np.ndarray) -> np.ndarray:
+        return membrane_forces(
+            self._model.operators, displacement, self._thickness, self._modulus
+        )
+
+    def buckling(self, linear_cases, factors, start) -> BucklingResult:
+        matrices = assemble_geometric(self._geometric, self.forces(linear_cases))
+        free, nodes = self._free, len(self._model.mesh.nodes)
+
+        def apply_cases(vectors: np.ndarray) -> np.ndarray:
+            full = np.zeros((len(free), vectors.shape[1]))
+            full[free] = vectors
+            moved = full[: 3 * nodes].reshape(nodes, -1)
+            result = np.zeros((len(matrices), int(free.sum()), vectors.shape[1]))
+            translations = free[: 3 * nodes]
+            count = int(translations.sum())
+            for case, matrix in enumerate(matrices):
+                image = (matrix @ moved).reshape(3 * nodes, -1)
+                result[case, :count] = image[translations]
+            return result
+
+        return find_buckling_factors(
+            self._factor.solve, apply_cases, factors, self._model.pattern.size, start
+        )
+
+    def second_order(self, linear: np.ndarray, options: AnalysisOptions) -> SecondOrderResult:
+        free = self._free
+
+        def correction(displacement: np.ndarray, _columns: np.ndarray) -> np.ndarray:
+            full = np.zeros((len(free), displacement.shape[1]))
+            full[free] = displacement
+            force = apply_geometric(self._geometric, self.forces(full), full)
+            return -self._factor.solve(force[free])
+
+        return solve_second_order(
+            linear[free], correction, options.tolerance, options.iterations_max
+        )
+
+
+def _mechanism(model, names, loads, error: NotPositiveDefiniteError) -> AnalysisResult:
+    dof = int(np.flatnonzero(model.pattern.free)[error.dof])
+    nodes = len(model.mesh.nodes)
+    node = dof // 3 if dof < 3 * nodes else None
+    nothing = np.full(loads.shape, np.nan)
+    return AnalysisResult(
+        "mechanism", str(error), names, nothing, nothing, loads, place=node
+    )

@@ -1,0 +1,124 @@
+"""Buckling factors of all load combinations from one growing subspace.
+
+(K + lambda K_g(N_c)) x = 0 for the least positive lambda of every combination c. K_g is linear in
+the load cases, so a subspace in which each case is projected once serves all combinations. It is
+enlarged by K^-1 K_g x of every mode x that is not yet accurate: a block Davidson method (Davidson
+1975) whose preconditioner is the factor of K that is at hand anyway.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+START_SEED = 2018
+"""Seed of the start vectors, fixed so that reruns agree to the last bit."""
+
+
+@dataclass(frozen=True)
+class BucklingResult:
+    """Least positive factors (c,), inf where no compression acts, and their modes (size, c).
+
+    `change` (c,) is the K-norm of x - K^-1 (-K_g x) / mu for modes of unit K-norm; its square
+    bounds the relative error of the factor up to the gap to the next one. `solves` counts
+    right-hand sides.
+    """
+
+    factors: np.ndarray
+    modes: np.ndarray
+    change: np.ndarray
+    solves: int
+    converged: bool
+
+
+def find_buckling_factors(
+    solve: Callable[[np.ndarray], np.ndarray],
+    apply_cases: Callable[[np.ndarray], np.ndarray],
+    factors: np.ndarray,
+    size: int,
+    start: np.ndarray | None = None,
+    tolerance: float = 1e-3,
+    iterations_max: int = 60,
+) -> BucklingResult:
+    """Find the least positive buckling factor of each combination.
+
+    Parameters
+    ----------
+    solve : K^-1 on (size, k)
+    apply_cases : maps (size, k) to K_g of each load case times it, (cases, size, k)
+    factors : (cases, c) combination factors
+    start : (size, c) modes of a similar structure to begin with
+    tolerance : on `change`, see `BucklingResult`
+    """
+    space = _Subspace(solve, apply_cases, len(factors), size)
+    space.extend(np.random.default_rng(START_SEED).standard_normal((size, 4)))
+    if start is not None:
+        space.extend(_own_images(apply_cases, start, factors))
+    change = np.full(factors.shape[1], np.inf)
+    for _ in range(iterations_max):
+        values, vectors = space.largest(factors)
+        active = np.flatnonzero((change > tolerance) & (values > 0))
+        if not len(active):
+            break
+        modes = space.basis @ vectors[:, active]
+        images = _own_images(apply_cases, modes, factors[:, active])
+        better = space.extend(images)
+        energy = (better * images).sum(axis=0) / values[active] ** 2
+        change[active] = np.sqrt(np.maximum(energy - 1, 0))
+    values, vectors = space.largest(factors)
+    with np.errstate(divide="ignore"):
+        result = np.where(values > 0, 1 / values, np.inf)
+    done = bool(((change <= tolerance) | (values <= 0)).all())
+    return BucklingResult(result, space.basis @ vectors, change, space.solves, done)
+
+
+def _own_images(apply_cases, vectors: np.ndarray, factors: np.ndarray) -> np.ndarray:
+    """Return -K_g(N_c) x_c for each column c, (size, c)."""
+    return -np.einsum("asc,ac->sc", apply_cases(vectors), factors)
+
+
+class _Subspace:
+    """A K-orthonormal basis with K_g of every load case projected on it."""
+
+    def __init__(self, solve, apply_cases, cases: int, size: int) -> None:
+        self._solve, self._apply = solve, apply_cases
+        self.basis = np.empty((size, 0))
+        self._forces = np.empty((size, 0))
+        self._projected = np.empty((cases, 0, 0))
+        self.solves = 0
+
+    def extend(self, forces: np.ndarray) -> np.ndarray:
+        """Add Z = K^-1 forces to the basis; return Z as solved."""
+        solved = self._solve(forces)
+        self.solves += forces.shape[1]
+        vectors, forces = solved, forces
+        for _ in range(2):
+            overlap = self._forces.T @ vectors
+            vectors, forces = vectors - self.basis @ overlap, forces - self._forces @ overlap
+            vectors, forces = _orthonormalise(vectors, forces)
+        self.basis = np.hstack([self.basis, vectors])
+        self._forces = np.hstack([self._forces, forces])
+        added = np.einsum("sk,asn->akn", self.basis, self._apply(vectors), optimize=True)
+        old = self._projected.shape[1]
+        grown = np.zeros((len(self._projected), self.basis.shape[1], self.basis.shape[1]))
+        grown[:, :old, :old] = self._projected
+        grown[:, :, old:] = added
+        grown[:, old:, :old] = added[:, :old].transpose(0, 2, 1)
+        self._projected = grown
+        return solved
+
+    def largest(self, factors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the largest mu = 1 / lambda of each combination and its coefficients."""
+        matrices = -np.einsum("akn,ac->ckn", self._projected, factors)
+        values, vectors = np.linalg.eigh((matrices + matrices.transpose(0, 2, 1)) / 2)
+        return values[:, -1], vectors[:, :, -1].T
+
+
+def _orthonormalise(vectors: np.ndarray, forces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Make vectors^T forces (= Z^T K Z) the identity, leaving out dependent directions."""
+    gram = vectors.T @ forces
+    scale = 1 / np.sqrt(np.maximum(np.diag(gram), 1e-300))
+    values, rotation = np.linalg.eigh((gram + gram.T) / 2 * scale * scale[:, None])
+    keep = values > 1e-12
+    mix = scale[:, None] * rotation[:, keep] / np.sqrt(values[keep])
+    return vectors @ mix, forces @ mix

@@ -1,0 +1,161 @@
+"""Polynomials on the reference triangle (0,0), (1,0), (0,1), tabulated once for each order.
+
+Three bases meet in the element of `element.py`:
+
+- Lagrange of degree p on the lattice of equidistant nodes, for displacements;
+- an orthonormal basis of degree p - 1 (Dubiner 1991), for strains, curvatures and forces;
+- Legendre polynomials of degree up to p - 1 on an edge, for the rotation about it.
+"""
+
+from dataclasses import dataclass
+from functools import lru_cache
+
+import numpy as np
+from scipy.special import eval_jacobi, roots_jacobi
+
+EDGES = np.array([[0, 1], [1, 2], [2, 0]])
+"""Corners of the three edges, counter-clockwise."""
+
+
+@dataclass(frozen=True)
+class ReferenceTriangle:
+    """Tables for one order p; n = (p+1)(p+2)/2 nodes, m = p(p+1)/2 strain functions.
+
+    `gradient` (2, m, n) and `hessian` (3, m, n; rr, ss, rs) hold the derivatives of each
+    Lagrange function as coefficients of the orthonormal basis: exact, since both are of
+    degree p - 1 at most. `edge_gradient` (3, 2, m, n) and `edge_rotation` (3, m, p) are the
+    integrals over an edge of unit length of an orthonormal function times a derivative, or
+    times a Legendre polynomial. `edge_slope` (3, 2, p, n) holds the derivatives on an edge as
+    coefficients of Legendre polynomials scaled to mean square one. `load` (n,) and `mass` (n, n) are means over the triangle.
+    """
+
+    order: int
+    lattice: np.ndarray
+    gradient: np.ndarray
+    hessian: np.ndarray
+    edge_gradient: np.ndarray
+    edge_rotation: np.ndarray
+    edge_slope: np.ndarray
+    load: np.ndarray
+    mass: np.ndarray
+
+
+@lru_cache(maxsize=8)
+def reference_triangle(order: int) -> ReferenceTriangle:
+    """Tabulate the reference triangle of the given order (1 to 8)."""
+    if not 1 <= order <= 8:
+        raise ValueError(f"element order {order}: allowed are 1 to 8")
+    lattice = lattice_points(order)
+    points, weights = triangle_quadrature(2 * order)
+    psi = orthonormal_basis(order - 1, points)
+    values, first, second = lagrange_basis(order, points)
+    project = psi.T * weights
+    xi, edge_weights = edge_quadrature(2 * order)
+    legendre = edge_basis(order, xi)
+    edge_gradient, edge_rotation, edge_slope = [], [], []
+    unit_legendre = legendre * np.sqrt(2 * np.arange(order) + 1)
+    for a, b in EDGES:
+        corner = np.array([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]])
+        on_edge = (1 - xi)[:, None] * corner[a] + xi[:, None] * corner[b]
+        edge_psi = orthonormal_basis(order - 1, on_edge).T * edge_weights
+        slopes = lagrange_basis(order, on_edge)[1]
+        edge_gradient.append(np.einsum("mq,kqn->kmn", edge_psi, slopes))
+        edge_slope.append(np.einsum("q,qj,kqn->kjn", edge_weights, unit_legendre, slopes))
+        edge_rotation.append(edge_psi @ legendre)
+    return ReferenceTriangle(
+        order=order,
+        lattice=lattice,
+        gradient=np.einsum("mq,kqn->kmn", project, first),
+        hessian=np.einsum("mq,kqn->kmn", project, second),
+        edge_gradient=np.array(edge_gradient),
+        edge_rotation=np.array(edge_rotation),
+        edge_slope=np.array(edge_slope),
+        load=weights @ values,
+        mass=np.einsum("q,qa,qb->ab", weights, values, values),
+    )
+
+
+def lattice_indices(order: int) -> np.ndarray:
+    """Return the barycentric indices (n, 3) of the lattice nodes, each row summing to `order`."""
+    return np.array(
+        [(order - r - s, r, s) for s in range(order + 1) for r in range(order + 1 - s)]
+    )
+
+
+def lattice_points(order: int) -> np.ndarray:
+    """Return the lattice nodes (n, 2) of the reference triangle."""
+    return lattice_indices(order)[:, 1:] / order
+
+
+def triangle_quadrature(degree: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return points (q, 2) and weights (q,), summing to one, exact to `degree`.
+
+    Conical product of Gauss-Legendre and Gauss-Jacobi (Stroud 1971): any degree, all weights
+    positive.
+    """
+    count = degree // 2 + 1
+    x, wx = roots_jacobi(count, 0, 0)
+    y, wy = roots_jacobi(count, 1, 0)
+    s = np.repeat((1 + y) / 2, count)
+    r = np.tile((1 + x) / 2, count) * (1 - s)
+    weights = np.outer(wy, wx).ravel()
+    return np.column_stack([r, s]), weights / weights.sum()
+
+
+def edge_quadrature(degree: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return Gauss points in (0, 1) and weights summing to one, exact to `degree`."""
+    x, w = np.polynomial.legendre.leggauss(degree // 2 + 1)
+    return (1 + x) / 2, w / 2
+
+
+def edge_basis(order: int, xi: np.ndarray) -> np.ndarray:
+    """Return the `order` lowest Legendre polynomials (q, order) at `xi` in [0, 1]."""
+    return np.polynomial.legendre.legvander(2 * xi - 1, order - 1)
+
+
+def orthonormal_basis(degree: int, points: np.ndarray) -> np.ndarray:
+    """Return the Dubiner basis (q, m), of mean square one over the triangle, at points (q, 2)."""
+    r, s = points.T
+    top = 1 - s
+    safe = np.where(top > 1e-14, top, 1.0)
+    a = np.where(top > 1e-14, 2 * r / safe - 1, -1.0)
+    b = 2 * s - 1
+    columns = []
+    for i in range(degree + 1):
+        for j in range(degree + 1 - i):
+            scale = np.sqrt((2 * i + 1) * (i + j + 1))
+            columns.append(
+                scale * eval_jacobi(i, 0, 0, a) * top**i * eval_jacobi(j, 2 * i + 1, 0, b)
+            )
+    return np.column_stack(columns)
+
+
+def lagrange_basis(order: int, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return values (q, n), first (2, q, n) and second (3, q, n; rr, ss, rs) derivatives."""
+    to_nodal = np.linalg.inv(_monomials(order, lattice_points(order), 0, 0))
+    table = {
+        (i, j): _monomials(order, points, i, j) @ to_nodal
+        for i, j in ((0, 0), (1, 0), (0, 1), (2, 0), (0, 2), (1, 1))
+    }
+    return (
+        table[0, 0],
+        np.array([table[1, 0], table[0, 1]]),
+        np.array([table[2, 0], table[0, 2], table[1, 1]]),
+    )
+
+
+def _monomials(order: int, points: np.ndarray, dr: int, ds: int) -> np.ndarray:
+    """Return the (dr, ds) derivative of all monomials of total degree <= order, (q, n)."""
+    r, s = points.T
+    return np.column_stack(
+        [
+            _power_derivative(r, i, dr) * _power_derivative(s, j, ds)
+            for i in range(order + 1)
+            for j in range(order + 1 - i)
+        ]
+    )
+
+
+def _power_derivative(x: np.ndarray, power: int, times: int) -> np.ndarray:
+    factor = np.prod([power - k for k in range(times)]) if times else 1.0
+    return factor * x ** max(power - times, 0) if times <= power else np.zeros_like(x)

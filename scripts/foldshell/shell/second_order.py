@@ -1,0 +1,78 @@
+"""Second-order theory (Th.II): equilibrium in which each combination's own forces act on it.
+
+(K + K_g(N(u_c))) u_c = F_c with small displacements. One factor of K serves all combinations:
+u <- K^-1 (F - K_g(N(u)) u), accelerated by Anderson's method (Walker & Ni 2011).
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+
+DEPTH = 6
+"""Steps that Anderson's method remembers."""
+
+
+@dataclass(frozen=True)
+class SecondOrderResult:
+    """Displacements (free, c), iterations, the last relative change of each column (c,), and
+    whether every column met the tolerance."""
+
+    displacement: np.ndarray
+    iterations: int
+    residual: np.ndarray
+    converged: bool
+
+
+def solve_second_order(
+    linear: np.ndarray,
+    correction: Callable[[np.ndarray, np.ndarray], np.ndarray],
+    tolerance: float = 1e-8,
+    iterations_max: int = 60,
+) -> SecondOrderResult:
+    """Find u = u_linear + correction(u) for all columns at once.
+
+    Parameters
+    ----------
+    linear : (free, c) first-order displacements
+    correction : maps (u (free, k), numbers of the k columns) to -K^-1 K_g(N(u)) u, (free, k)
+    tolerance : largest change, relative to the largest displacement of the column
+    iterations_max : limit on evaluations of `correction`
+    """
+    current = linear.copy()
+    residual = np.full(linear.shape[1], np.inf)
+    memory = [_AndersonColumn() for _ in range(linear.shape[1])]
+    iterations = 0
+    while iterations < iterations_max:
+        active = np.flatnonzero(~(residual <= tolerance))
+        if not len(active) or not np.isfinite(current).all():
+            break
+        image = linear[:, active] + correction(current[:, active], active)
+        iterations += 1
+        for position, column in enumerate(active):
+            step = image[:, position] - current[:, column]
+            scale = np.abs(image[:, position]).max() or 1.0
+            residual[column] = np.abs(step).max() / scale
+            current[:, column] = memory[column].advance(current[:, column], step)
+    return SecondOrderResult(current, iterations, residual, bool((residual <= tolerance).all()))
+
+
+class _AndersonColumn:
+    """Anderson's update of one column from the differences of its last steps."""
+
+    def __init__(self) -> None:
+        self._points: list[np.ndarray] = []
+        self._steps: list[np.ndarray] = []
+
+    def advance(self, point: np.ndarray, step: np.ndarray) -> np.ndarray:
+        """Return the next point from this one and its fixed-point step."""
+        self._points = [*self._points[-DEPTH:], point.copy()]
+        self._steps = [*self._steps[-DEPTH:], step]
+        if len(self._steps) == 1:
+            return point + step
+        step_change = np.diff(self._steps, axis=0)
+        point_change = np.diff(self._points, axis=0)
+        gram = step_change @ step_change.T
+        gram[np.diag_indices_from(gram)] *= 1 + 1e-12
+        weights = np.linalg.lstsq(gram, step_change @ step, rcond=1e-14)[0]
+        return point + step - weights @ (point_change + step_change)
