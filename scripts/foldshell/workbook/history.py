@@ -1,0 +1,168 @@
+"""The history of a sizing loop: one row an iteration, as .csv and as a workbook with charts."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from foldshell.workbook.panels import FloatArray
+from foldshell.workbook.styles import Styles, add_sheet, create_workbook, mark_above, write_pairs
+from foldshell.workbook.tables import Row, make_columns, write_csv, write_table
+
+HISTORY_KEYS = (
+    "iteration",
+    "verdict",
+    "edited",
+    "volume_m3",
+    "volume_change_m3",
+    "utilization_max",
+    "utilization_p99",
+    "utilization_panel_mean_max",
+    "panels_above_one",
+    "displacement_vertical_max_m",
+    "displacement_limit_m",
+    "buckling_factor_min",
+    "thickness_min_m",
+    "thickness_mean_m",
+    "thickness_max_m",
+    "second_order_iterations",
+    "reaction_imbalance",
+    "reason",
+)
+_CHARTS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
+    ("Volume", "m3", ("volume_m3",)),
+    ("Utilization", "-", ("utilization_max", "utilization_p99", "utilization_panel_mean_max")),
+    ("Vertical displacement", "m", ("displacement_vertical_max_m", "displacement_limit_m")),
+    ("Least buckling factor", "-", ("buckling_factor_min",)),
+)
+_COLOURS = ("#1D4ED8", "#B45309", "#6B7280")
+
+
+def find_least_factor(analysis: Mapping[str, Any]) -> float | None:
+    """Return the least buckling factor of all combinations, None where none was found."""
+    factors = analysis.get("buckling_factor") or {}
+    values = [float(factor) for factor in factors.values() if factor is not None]
+    return min(values) if values else None
+
+
+def make_history(
+    analyses: Sequence[Mapping[str, Any]],
+    thicknesses: Sequence[FloatArray] | None = None,
+    displacement_limit: float | None = None,
+    edited: Sequence[int] = (),
+) -> list[dict[str, Any]]:
+    """Return one row an iteration from the contents of its `analysis.json`.
+
+    `thicknesses` are those that each analysis read (m), `displacement_limit` is in m, and
+    `edited` holds the iterations whose workbook a person has changed.
+    """
+    rows: list[dict[str, Any]] = []
+    for index, analysis in enumerate(analyses):
+        row = {key: analysis.get(key) for key in HISTORY_KEYS}
+        before = rows[-1]["volume_m3"] if rows else None
+        if before is not None and row["volume_m3"] is not None:
+            row["volume_change_m3"] = row["volume_m3"] - before
+        row["displacement_limit_m"] = displacement_limit
+        row["buckling_factor_min"] = find_least_factor(analysis)
+        row["second_order_iterations"] = _largest(analysis.get("second_order_iterations"))
+        row["edited"] = "edited" if row["iteration"] in edited else None
+        if thicknesses is not None:
+            row["thickness_min_m"] = float(np.min(thicknesses[index]))
+            row["thickness_mean_m"] = float(np.mean(thicknesses[index]))
+            row["thickness_max_m"] = float(np.max(thicknesses[index]))
+        rows.append(row)
+    return rows
+
+
+def _largest(value: Any) -> Any:
+    """Return the largest entry of counts by combination, or the one count there is."""
+    if isinstance(value, Mapping):
+        return max((count for count in value.values() if count is not None), default=None)
+    return value
+
+
+def write_history_csv(path: str | Path, rows: Sequence[Row]) -> None:
+    """Write `history.csv`."""
+    write_csv(path, HISTORY_KEYS, rows)
+
+
+def write_history(
+    path: str | Path,
+    rows: Sequence[Row],
+    summary: Mapping[str, Any],
+    utilization_max: float = 1.0,
+) -> None:
+    """Write `history.xlsx`: sheets summary, history (a row an iteration) and charts."""
+    with create_workbook(path, "History of the sizing loop") as (book, styles):
+        sheet = add_sheet(book, "summary", landscape=False)
+        sheet.set_column(0, 0, 34)
+        sheet.set_column(1, 1, 44)
+        sheet.set_column(2, 2, 10)
+        sheet.write_string(0, 0, "History of the sizing loop", styles["title"])
+        write_pairs(sheet, styles, 2, summary)
+        add_history_sheets(book, styles, rows, utilization_max)
+
+
+def add_history_sheets(
+    book: Any, styles: Styles, rows: Sequence[Row], utilization_max: float
+) -> None:
+    """Add the sheets `history` and `charts` to a workbook."""
+    sheet = add_sheet(book, "history")
+    first = write_table(sheet, styles, 0, make_columns(HISTORY_KEYS), rows)
+    last = first + max(len(rows), 1) - 1
+    for key in ("utilization_max", "utilization_p99", "utilization_panel_mean_max"):
+        column = HISTORY_KEYS.index(key)
+        mark_above(sheet, styles, (first, column, last, column), utilization_max)
+    charts = add_sheet(book, "charts")
+    charts.fit_to_pages(1, 1)
+    for index, (title, unit, keys) in enumerate(_CHARTS):
+        drawn = [key for key in keys if any(row.get(key) is not None for row in rows)]
+        if drawn:
+            chart = _make_chart(book, title, unit, drawn, (first, last))
+            charts.insert_chart(17 * (index // 2), 8 * (index % 2), chart)
+
+
+def _make_chart(
+    book: Any, title: str, unit: str, keys: Sequence[str], span: tuple[int, int]
+) -> Any:
+    """Return straight lines with markers over the iterations, header and units left out."""
+    font = {"name": "Arial", "size": 9, "bold": False}
+    chart = book.add_chart({"type": "scatter", "subtype": "straight_with_markers"})
+    first, last = span
+    for key, colour in zip(keys, _COLOURS, strict=False):
+        column = HISTORY_KEYS.index(key)
+        limit = key.endswith("_limit_m")
+        line = {"color": "#9F1239" if limit else colour, "width": 1.5}
+        line |= {"dash_type": "dash"} if limit else {}
+        marker: dict[str, Any] = {"type": "none"}
+        if not limit:
+            fill = {"color": colour}
+            marker = {"type": "circle", "size": 5, "fill": fill, "border": fill}
+        chart.add_series(
+            {
+                "name": ["history", 0, column],
+                "categories": ["history", first, 0, last, 0],
+                "values": ["history", first, column, last, column],
+                "line": line,
+                "marker": marker,
+            }
+        )
+    chart.set_title({"name": f"{title} [{unit}]", "name_font": {**font, "size": 11, "bold": True}})
+    whole = max(last - first, 1)
+    chart.set_x_axis(
+        {
+            "name": "iteration",
+            "name_font": font,
+            "num_font": font,
+            "min": 0,
+            "max": whole,
+            "major_unit": max(1, whole // 10),
+            "num_format": "0",
+        }
+    )
+    grid = {"visible": True, "line": {"color": "#E5E7EB"}}
+    chart.set_y_axis({"num_font": font, "min": 0, "num_format": "General", "major_gridlines": grid})
+    chart.set_legend({"position": "bottom", "font": font} if len(keys) > 1 else {"none": True})
+    chart.set_size({"width": 500, "height": 320})
+    return chart

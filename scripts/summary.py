@@ -1,0 +1,43 @@
+"""Gather one row a design into summary.csv and summary.xlsx."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from foldshell.study.errors import InputError, user_errors
+from foldshell.study.stages import settings_hash
+from foldshell.study.summary import SUMMARY_KEYS, make_summary_row
+from foldshell.workbook.summary import write_summary
+from foldshell.workbook.tables import write_csv
+
+
+def main(
+    designs: Sequence[Mapping[str, Any]],
+    results: str | Path,
+    settings: Mapping[str, Any],
+    csv: str | Path,
+    xlsx: str | Path,
+) -> None:
+    """Write both summaries of the designs, in their order.
+
+    `designs` holds the columns of designs.tsv and `mesh_subdivisions`, `results` is the folder
+    with one folder a design, and `settings` are the plain parameters of the stage `study`.
+    """
+    if not designs:
+        raise InputError("summary: designs: none given: at least one is due")
+    digest = settings_hash(settings)
+    rows = [make_summary_row(row, Path(results) / row["design"], digest) for row in designs]
+    limit = settings["sizing"]["utilization_max"]
+    write_csv(csv, SUMMARY_KEYS, rows)
+    write_summary(xlsx, SUMMARY_KEYS, rows, {**settings, "settings_hash": digest}, limit)
+
+
+if "snakemake" in globals():
+    with user_errors():
+        main(
+            designs=snakemake.params.designs,  # noqa: F821
+            results=snakemake.params.results,  # noqa: F821
+            settings=snakemake.params.settings,  # noqa: F821
+            csv=snakemake.output.csv,  # noqa: F821
+            xlsx=snakemake.output.xlsx,  # noqa: F821
+        )
