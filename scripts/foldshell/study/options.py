@@ -160,6 +160,7 @@ class Settings:
     """Every setting of a study."""
 
     designs: str
+    study: str
     defaults: Defaults
     pattern: Pattern
     fold: Fold

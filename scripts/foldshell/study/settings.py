@@ -98,7 +98,7 @@ def _type_settings(filled: Mapping[str, Any], source: str) -> Settings:
             if group == name:
                 fields[key] = nested(**convert_units(fields[key]))
         groups[name] = kind(**fields)
-    return Settings(designs=filled["designs"], **groups)
+    return Settings(designs=filled["designs"], study=filled["study"], **groups)
 
 
 def _type_combinations(filled: Mapping[str, Any], source: str) -> Combinations:
