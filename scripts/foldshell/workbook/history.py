@@ -109,7 +109,7 @@ def add_history_sheets(
 ) -> None:
     """Add the sheets `history` and `charts` to a workbook."""
     sheet = add_sheet(book, "history")
-    first = write_table(sheet, styles, 0, make_columns(HISTORY_KEYS), rows)
+    first = write_table(sheet, styles, 0, make_columns(HISTORY_KEYS), rows, upright=True)
     last = first + max(len(rows), 1) - 1
     for key in ("utilization_max", "utilization_p99", "utilization_panel_mean_max"):
         column = HISTORY_KEYS.index(key)

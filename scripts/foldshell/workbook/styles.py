@@ -26,6 +26,7 @@ _FORMATS: dict[str, dict[str, Any]] = {
         "bg_color": "#E5E7EB",
         "bottom": 1,
         "bottom_color": _RULE,
+        "valign": "bottom",
         "indent": 1,
     },
     "header_number": {
@@ -36,12 +37,21 @@ _FORMATS: dict[str, dict[str, Any]] = {
         "align": "right",
         "text_wrap": True,
     },
+    "header_upright": {
+        "bold": True,
+        "bg_color": "#E5E7EB",
+        "bottom": 1,
+        "bottom_color": _RULE,
+        "align": "center",
+        "valign": "bottom",
+        "rotation": 90,
+    },
     "unit": {"italic": True, "font_color": "#6B7280", "align": "right"},
     "unit_text": {"italic": True, "font_color": "#6B7280", "align": "left", "indent": 1},
     "integer": {"num_format": "0", "align": "right"},
     "metre": {"num_format": "0.0000", "align": "right"},
     "decimal": {"num_format": "0.000", "align": "right"},
-    "general": {"num_format": "General", "align": "right"},
+    "general": {"num_format": "0.0#####", "align": "right"},
     "scientific": {"num_format": "0.0E+00", "align": "right"},
     "change": {"num_format": "+0.0%;-0.0%;0.0%", "align": "right"},
     # Blue on pale yellow: the usual mark of a cell that a person may type into.
@@ -193,12 +203,16 @@ def write_header(
     styles: Styles,
     row: int,
     columns: Sequence[tuple[str, str, str, float]],
+    upright: bool = False,
 ) -> None:
     """Write a header row and a units row of (name, unit, format, width), frozen and repeated."""
+    number_header = "header_upright" if upright else "header_number"
+    if upright:
+        sheet.set_row(row, 5.6 * max(len(name) for name, *_ in columns))
     for index, (name, unit, style, width) in enumerate(columns):
         text = style in ("text", "wrap")
-        sheet.set_column(index, index, width)
-        sheet.write_string(row, index, name, styles["header" if text else "header_number"])
+        sheet.set_column(index, index, width if text or not upright else 9.0)
+        sheet.write_string(row, index, name, styles["header" if text else number_header])
         sheet.write_string(row + 1, index, unit, styles["unit_text" if text else "unit"])
     sheet.freeze_panes(row + 2, 1)
     sheet.repeat_rows(row, row + 1)

@@ -25,7 +25,7 @@ def write_summary(
     """Write the sheets summary (the rows), overview (endings and their number) and notes."""
     with create_workbook(path, "Summary of the study") as (book, styles):
         sheet = add_sheet(book, "summary")
-        first = write_table(sheet, styles, 0, make_columns(keys), rows)
+        first = write_table(sheet, styles, 0, make_columns(keys), rows, upright=True)
         last = first + max(len(rows), 1) - 1
         sheet.autofilter(1, 0, last, len(keys) - 1)
         for key in ("utilization_max", "utilization_p99"):

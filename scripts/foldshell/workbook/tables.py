@@ -38,11 +38,11 @@ _INTEGERS = (
 )
 _TEXTS = {
     "design": 34.0,
-    "tags": 28.0,
-    "reason": 60.0,
-    "settings_hash": 15.0,
-    "state": 22.0,
-    "verdict": 22.0,
+    "tags": 24.0,
+    "reason": 50.0,
+    "settings_hash": 14.0,
+    "state": 18.0,
+    "verdict": 18.0,
     "note": 40.0,
     "name": 26.0,
     "value": 60.0,
@@ -57,13 +57,15 @@ def make_column(key: str) -> Column:
     unit = split_unit(key)[1]
     width = max(10.0, min(18.0, 1.1 * len(key) + 2.0))
     if key in _TEXTS or key in _TEXT_KEYS:
-        return Column(key, "", "text", _TEXTS.get(key, 14.0))
+        return Column(key, "", "text", _TEXTS.get(key, 11.0))
     if key in _INTEGERS:
         return Column(key, "-", "integer", width)
     if key in _CHANGES:
         return Column(key, "-", "change", width)
     if key.startswith(("reaction_", "imbalance")):
         return Column(key, "-", "scientific", width)
+    if key in ("span_m", "height_m"):
+        return Column(key, unit, "general", width)
     return Column(key, unit, "metre" if unit == "m" else "decimal", width)
 
 
@@ -93,14 +95,20 @@ def _show(value: Any) -> str:
 
 
 def write_table(
-    sheet: Any, styles: Styles, row: int, columns: Sequence[Column], rows: Sequence[Row]
+    sheet: Any,
+    styles: Styles,
+    row: int,
+    columns: Sequence[Column],
+    rows: Sequence[Row],
+    upright: bool = False,
 ) -> int:
     """Write header, units and rows from a row on; return the first row of values.
 
-    Endings in the columns `state`, `verdict` and `crosscheck` are coloured by what they say.
+    `upright` turns the headers of numbers, so that a wide table fits a page. Endings in the
+    columns `state`, `verdict` and `crosscheck` are coloured by what they say.
     """
     heads = [(column.key, column.unit, column.style, column.width) for column in columns]
-    write_header(sheet, styles, row, heads)
+    write_header(sheet, styles, row, heads, upright)
     for offset, values in enumerate(rows, start=row + 2):
         for index, column in enumerate(columns):
             value = values.get(column.key)
