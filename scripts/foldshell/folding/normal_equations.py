@@ -55,9 +55,7 @@ class NormalEquations:
     def assemble(self, rows: Rows) -> tuple[np.ndarray, np.ndarray]:
         """Values (nnz,) of the lower triangle of J^T J, and the gradient J^T r (n,)."""
         products, gradient = [], np.zeros(self.unknowns)
-        for columns, pairs, (residual, values) in zip(
-            self.columns, self._pairs, rows, strict=True
-        ):
+        for columns, pairs, (residual, values) in zip(self.columns, self._pairs, rows, strict=True):
             products.append((values[:, pairs[0]] * values[:, pairs[1]]).ravel())
             weighted = (values * residual[:, None]).ravel()
             gradient += np.bincount(columns.ravel(), weighted, self.unknowns)

@@ -9,19 +9,21 @@ from foldshell.pattern.angles import measure_hinges
 from foldshell.pattern.grid import find_hinges
 from foldshell.pattern.sheet import Sheet
 
-STEEP = 0.8  # height / span from which the creases are held more firmly
+STEEP = 0.8  # height / span from which folds and plan edges are held more firmly
 
 
 @dataclass(frozen=True)
 class Weights:
-    """Weights of the squared, non-dimensional residuals."""
+    """Weights of the squared, non-dimensional residuals; `_steep` ones from STEEP on."""
 
     stretch: float = 10.0
     hinge: float = 0.01
     hinge_steep: float = 0.03
     neutral_fold: float = 0.01
+    neutral_fold_steep: float = 0.04
     attraction: float = 100.0
     plan_edge: float = 0.03
+    plan_edge_steep: float = 0.05
 
 
 def attracted_vertices(sheet: Sheet, attract: str) -> np.ndarray:
@@ -68,13 +70,15 @@ def build_terms(sheet: Sheet, target, attract: str, weights: Weights) -> list[Te
     rest = measure_hinges(sheet.rest, hinges.vertices)
     steep = target.height >= STEEP * target.span
     crease_weight = weights.hinge_steep if steep else weights.hinge
+    neutral_weight = weights.neutral_fold_steep if steep else weights.neutral_fold
+    edge_weight = weights.plan_edge_steep if steep else weights.plan_edge
     ell = reference_length(sheet)
     return [
         Stretch(grid.edges, edge_lengths(sheet.flat, grid.edges), weights.stretch),
         Hinge(hinges.vertices[~neutral], rest[~neutral], crease_weight),
-        Hinge(hinges.vertices[neutral], np.zeros(neutral.sum()), weights.neutral_fold),
+        Hinge(hinges.vertices[neutral], np.zeros(neutral.sum()), neutral_weight),
         Attraction(attracted_vertices(sheet, attract), target, ell, weights.attraction),
-        hold_plan_edges(sheet, target.span, ell, weights.plan_edge),
+        hold_plan_edges(sheet, target.span, ell, edge_weight),
     ]
 
 

@@ -80,9 +80,10 @@ class Quadric:
         yy = np.where(weak, 1 + slope_y**2, yy)
         xy = np.where(weak, slope_x * slope_y, xy)
         determinant = xx * yy - xy**2
-        return np.column_stack(
-            [(yy * force_x - xy * force_y), (xx * force_y - xy * force_x)]
-        ) / determinant[:, None]
+        return (
+            np.column_stack([(yy * force_x - xy * force_y), (xx * force_y - xy * force_x)])
+            / determinant[:, None]
+        )
 
     def section_lengths(self) -> tuple[float, float]:
         """Arc lengths [m] of the central sections y = 0 and x = 0 over the span."""

@@ -135,9 +135,7 @@ def measure_coverage(
     place = np.arange(counts.sum()) - np.repeat(np.cumsum(counts) - counts, counts)
     row, column = np.divmod(place, size[facet, 0])
     points = low[facet] + np.column_stack([column, row])
-    turns = [
-        _turn(corners[facet, k], corners[facet, (k + 1) % 3], points) for k in range(3)
-    ]
+    turns = [_turn(corners[facet, k], corners[facet, (k + 1) % 3], points) for k in range(3)]
     inside = (np.min(turns, axis=0) >= 0) | (np.max(turns, axis=0) <= 0)
     covered = np.zeros((samples, samples), dtype=bool)
     covered[points[inside, 0], points[inside, 1]] = True

@@ -37,9 +37,7 @@ def corner_sectors(grid: Grid) -> np.ndarray:
     centre = number[1:-1, 1:-1].ravel()
     around = [number[1:-1, 2:], number[2:, 1:-1], number[1:-1, :-2], number[:-2, 1:-1]]
     arms = [arm.ravel() for arm in around]
-    return np.stack(
-        [np.column_stack([centre, arms[k], arms[(k + 1) % 4]]) for k in range(4)]
-    )
+    return np.stack([np.column_stack([centre, arms[k], arms[(k + 1) % 4]]) for k in range(4)])
 
 
 def measure_sectors(vertices: np.ndarray, corners: np.ndarray) -> np.ndarray:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from foldshell.pattern.angles import measure_folds
-from foldshell.pattern.grid import Grid, build_grid
+from foldshell.pattern.grid import Grid, build_grid, remove_creases
 from foldshell.pattern.sheet import Frame, Sheet
 from foldshell.study.errors import InputError
 from foldshell.study.files import write_json
@@ -111,6 +111,8 @@ def _read_grid(path: str | Path, data: dict[str, Any]) -> Grid:
     if zigzags < 3 or strips < 3:
         raise InputError(f"{path}: foldshell:zigzag: {zigzags} x {strips} polylines: at least 3")
     grid = build_grid(zigzags, strips)
+    if data.get("foldshell:kind") == "smooth":
+        grid = remove_creases(grid)
     expected = {"foldshell:zigzag": grid.zigzag, "foldshell:strip": grid.strip,
                 "edges_vertices": grid.edges, "faces_vertices": grid.facets}  # fmt: skip
     for key, value in expected.items():

@@ -1,6 +1,6 @@
 """Topology of a quadrilateral crease grid: panels, facets, edges, fold directions, hinges."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -74,9 +74,21 @@ def build_grid(zigzags: int, strips: int) -> Grid:
         ]
     )
     return Grid(
-        zigzags, strips, quads, split_quads(quads, column[quads[:, 0]]), edges, assignments,
-        row, column,
+        zigzags,
+        strips,
+        quads,
+        split_quads(quads, column[quads[:, 0]]),
+        edges,
+        assignments,
+        row,
+        column,
     )
+
+
+def remove_creases(grid: Grid) -> Grid:
+    """Return the same grid with every inner edge flat: a smooth surface's panels."""
+    border = grid.assignments == BOUNDARY
+    return replace(grid, assignments=np.where(border, BOUNDARY, FLAT))
 
 
 def split_quads(quads: np.ndarray, column: np.ndarray) -> np.ndarray:

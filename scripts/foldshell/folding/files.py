@@ -1,0 +1,72 @@
+"""Files of a folded sheet: folded.npz, folded.vtu, quality.json."""
+
+from pathlib import Path
+
+import numpy as np
+
+from foldshell.folding.fold import FoldResult
+from foldshell.folding.quality import measure_planarity, measure_strain
+from foldshell.pattern.sheet import Sheet
+from foldshell.study.files import atomic_path, write_arrays, write_json
+
+
+def describe_quality(result: FoldResult) -> dict[str, float | int | str]:
+    """Build the contents of quality.json: state, measures, effort, residuals of the mode."""
+    return {
+        "state": result.state,
+        "reason": result.reason,
+        **result.quality.as_dict(),
+        **result.shape.residuals,
+        "iterations": result.shape.iterations,
+        "seconds": round(result.seconds, 4),
+    }
+
+
+def write_quality(path: str | Path, result: FoldResult) -> None:
+    """Write quality.json."""
+    write_json(path, describe_quality(result))
+
+
+def write_folded(path: str | Path, sheet: Sheet, result: FoldResult) -> None:
+    """Write folded.npz: vertices and flat state [m], panels, facets, indices, panel fields."""
+    grid, shape = sheet.grid, result.shape
+    write_arrays(
+        path,
+        {
+            "vertices": shape.vertices,
+            "quads": grid.quads,
+            "facets": grid.facets,
+            "zigzag": grid.zigzag,
+            "strip": grid.strip,
+            "flat": shape.flat,
+            "planarity": measure_planarity(shape.vertices, grid.quads),
+            "strain": measure_strain(shape.vertices, shape.flat, grid.facets),
+        },
+    )
+
+
+def write_folded_vtu(path: str | Path, sheet: Sheet, result: FoldResult) -> None:
+    """Write folded.vtu: facets with panel, indices, planarity and strain; distance at vertices.
+
+    `distance` [m] is signed along the target's normal and nan where a vertex is not attracted.
+    """
+    import meshio  # only here: the stages that follow read folded.npz
+
+    grid, shape = sheet.grid, result.shape
+    panel = np.repeat(np.arange(grid.panels), 2)
+    distance = np.full(len(shape.vertices), np.nan)
+    distance[result.attracted] = result.distances
+    mesh = meshio.Mesh(
+        shape.vertices,
+        [("triangle", grid.facets)],
+        point_data={"distance": distance, "zigzag": grid.zigzag, "strip": grid.strip},
+        cell_data={
+            "panel": [panel],
+            "panel_zigzag": [grid.zigzag[grid.quads[panel, 0]]],
+            "panel_strip": [grid.strip[grid.quads[panel, 0]]],
+            "planarity": [measure_planarity(shape.vertices, grid.quads)[panel]],
+            "strain": [measure_strain(shape.vertices, shape.flat, grid.facets)],
+        },
+    )
+    with atomic_path(path) as temporary:
+        meshio.write(temporary, mesh, file_format="vtu")

@@ -1,0 +1,131 @@
+"""Fold a sheet onto a target: one interface for every mode."""
+
+import time
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+import numpy as np
+
+from foldshell.folding.levenberg import minimise_terms
+from foldshell.folding.problem import attracted_vertices, build_terms, place_sheet
+from foldshell.folding.quality import Quality, measure_quality
+from foldshell.folding.settings import MODES, FoldSettings, Limits
+from foldshell.pattern.sheet import Sheet
+
+
+@dataclass(frozen=True)
+class Shape:
+    """What a mode hands back: vertices and flat state (V, 3) [m], and how it ended.
+
+    `flat` is the crease pattern that was folded: given in paper and isometric mode, found in
+    exact and rigid mode. `residuals` are further measures of the mode, by name.
+    """
+
+    vertices: np.ndarray
+    flat: np.ndarray
+    iterations: int
+    converged: bool
+    reason: str
+    residuals: dict[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class FoldResult:
+    """A folded sheet: shape, signed distances (N,) [m] of `attracted` vertices, quality, state.
+
+    `state` is ok, not_reached (target or tolerance missed) or crumpled (folds turned over, the
+    sheet cuts itself, or too little of the plan is covered); `reason` says why in words.
+    """
+
+    shape: Shape
+    attracted: np.ndarray
+    distances: np.ndarray
+    quality: Quality
+    state: str
+    reason: str
+    seconds: float
+
+
+def fold_sheet(sheet: Sheet, target, mode: str, settings: FoldSettings) -> FoldResult:
+    """Fold `sheet` so that its lowest or highest vertices lie on `target`.
+
+    mode: paper (soft springs), isometric (hard lengths), exact (true crease pattern), rigid
+    (exact and rigidly foldable). Smooth and flat sheets are only laid out.
+    """
+    start = time.perf_counter()
+    if mode not in MODES:
+        raise ValueError(f"fold_mode {mode!r}: must be one of {', '.join(MODES)}")
+    solve = LAYOUTS.get(sheet.kind) or SOLVERS[mode]
+    shape = solve(sheet, target, settings)
+    attracted = attracted_vertices(sheet, settings.attract)
+    if sheet.kind == "flat":  # it is not meant to reach the target
+        distances = np.zeros(len(attracted))
+    else:
+        points = shape.vertices[attracted]
+        closest, normals = target.find_closest(points)
+        distances = np.einsum("ij,ij->i", normals, points - closest)
+    folded = sheet.kind not in LAYOUTS
+    quality = measure_quality(
+        shape.vertices, sheet.grid, shape.flat, distances, target.span, folded
+    )
+    state, reason = judge_shape(shape, quality, settings.limits)
+    seconds = time.perf_counter() - start
+    return FoldResult(shape, attracted, distances, quality, state, reason, seconds)
+
+
+def judge_shape(shape: Shape, quality: Quality, limits: Limits) -> tuple[str, str]:
+    """Name the state of a folded sheet and the reason for it."""
+    faults = []
+    if quality.flipped_folds:
+        faults.append(f"{quality.flipped_folds} folds turned over")
+    if quality.self_intersections:
+        faults.append(f"{quality.self_intersections} facet pairs cut each other")
+    if quality.plan_coverage < limits.plan_coverage:
+        faults.append(f"plan coverage {quality.plan_coverage:.3f} < {limits.plan_coverage:g}")
+    if faults:
+        return "crumpled", "; ".join(faults)
+    if quality.rms_over_span > limits.rms_over_span:
+        return "not_reached", (
+            f"rms distance {quality.rms_over_span:.2e} span > {limits.rms_over_span:g}; "
+            f"{shape.reason}"
+        )
+    return ("ok" if shape.converged else "not_reached"), shape.reason
+
+
+def fold_softly(sheet: Sheet, target, settings: FoldSettings) -> Shape:
+    """Paper mode: minimise the weighted squares of stretch, hinges, attraction, plan edge."""
+    terms = build_terms(sheet, target, settings.attract, settings.weights)
+    minimum = minimise_terms(
+        terms,
+        place_sheet(sheet, target, settings.attract),
+        max_iterations=settings.max_iterations,
+        cost_tolerance=settings.tolerance,
+        step_tolerance=1e-9 * target.span,
+    )
+    return Shape(
+        minimum.vertices, sheet.flat, minimum.iterations, minimum.converged, minimum.reason,
+        {"cost": minimum.cost},
+    )  # fmt: skip
+
+
+def lay_smooth(sheet: Sheet, target, settings: FoldSettings) -> Shape:
+    """Lay the panel grid on the target itself by arc length of its central sections."""
+    del settings
+    centred = sheet.flat - sheet.flat.mean(axis=0)
+    x = target.walk_section(0, centred[:, 0])
+    y = target.walk_section(1, centred[:, 1])
+    vertices = np.column_stack([x, y, target.evaluate_height(x, y)])
+    # Lengths are those of the surface itself: a smooth shell is not bent from a plane.
+    return Shape(vertices, vertices, 0, True, "laid on the target surface")
+
+
+def lay_flat(sheet: Sheet, target, settings: FoldSettings) -> Shape:
+    """Centre the unfolded sheet on the plan, at height 0."""
+    del target, settings
+    middle = 0.5 * (sheet.flat.min(axis=0) + sheet.flat.max(axis=0))
+    return Shape(sheet.flat - middle, sheet.flat, 0, True, "left unfolded")
+
+
+Solver = Callable[[Sheet, object, FoldSettings], Shape]
+LAYOUTS: dict[str, Solver] = {"smooth": lay_smooth, "flat": lay_flat}
+SOLVERS: dict[str, Solver] = {"paper": fold_softly}

@@ -1,0 +1,53 @@
+"""From a design's numbers to the sheet that is to be folded."""
+
+import math
+
+import numpy as np
+
+from foldshell.pattern.grid import build_grid, remove_creases
+from foldshell.pattern.miura import size_miura
+from foldshell.pattern.sheet import Sheet, make_miura_sheet
+
+PATTERNS = ("miura", "smooth", "flat")
+SECTOR_ANGLES_DEG = (46.0, 88.0)  # near 45 the rest state is flat, near 90 zig-zags vanish
+
+
+def design_sheet(
+    pattern: str,
+    section_lengths: tuple[float, float],
+    zigzags: int,
+    strips: int,
+    sector_angle_deg: float,
+    frames: int = 9,
+) -> Sheet:
+    """Size a sheet whose rest state measures the target's central sections [m].
+
+    `pattern`: miura; smooth, a plain grid of panels to lay on the target; flat, the Miura
+    sheet before folding. `frames` states of the folding path are kept with it.
+    """
+    if zigzags < 3 or strips < 3:
+        raise ValueError(f"zigzag {zigzags}, strip {strips}: must be at least 3 each")
+    if pattern == "smooth":
+        return _make_smooth_sheet(section_lengths, zigzags, strips)
+    low, high = SECTOR_ANGLES_DEG
+    if not low <= sector_angle_deg <= high:
+        raise ValueError(f"sector_angle_deg {sector_angle_deg}: must be {low:g} to {high:g}")
+    miura = size_miura(*section_lengths, math.radians(sector_angle_deg), zigzags, strips)
+    if pattern == "miura":
+        return make_miura_sheet(miura, frames)
+    if pattern == "flat":
+        sheet = make_miura_sheet(miura, 0)
+        return Sheet("flat", sheet.grid, sheet.flat, sheet.flat, (), sheet.settings)
+    raise ValueError(f"pattern {pattern!r}: must be one of {', '.join(PATTERNS)}")
+
+
+def _make_smooth_sheet(lengths: tuple[float, float], zigzags: int, strips: int) -> Sheet:
+    grid = remove_creases(build_grid(zigzags, strips))
+    flat = np.column_stack(
+        [
+            grid.strip * lengths[0] / (strips - 1),
+            grid.zigzag * lengths[1] / (zigzags - 1),
+            np.zeros(len(grid.strip)),
+        ]
+    )
+    return Sheet("smooth", grid, flat, flat, (), {})

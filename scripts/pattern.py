@@ -1,0 +1,43 @@
+"""Rule pattern: the crease pattern of a design, sized for its target, as a FOLD file."""
+
+from pathlib import Path
+
+from foldshell.folding.targets import make_target
+from foldshell.pattern.design import design_sheet
+from foldshell.pattern.fold_format import write_fold
+from foldshell.study.errors import InputError, user_errors
+
+
+def main(
+    fold_path: str | Path,
+    *,
+    design: str,
+    pattern: str = "miura",
+    surface: str = "paraboloid",
+    span_m: float = 28.0,
+    height_m: float = 10.0,
+    zigzag: int = 15,
+    strip: int = 16,
+    sector_angle_deg: float = 60.0,
+    frames: int = 9,
+) -> None:
+    """Write crease_pattern.fold: flat pattern, rest state and `frames` folded states [m]."""
+    try:
+        target = make_target(surface, span_m, height_m)
+        sheet = design_sheet(
+            pattern, target.section_lengths(), zigzag, strip, sector_angle_deg, frames
+        )
+    except InputError:
+        raise
+    except ValueError as error:
+        raise InputError(f"design {design}: {error}") from None
+    write_fold(fold_path, sheet, design)
+
+
+if "snakemake" in globals():
+    with user_errors():
+        main(
+            snakemake.output.fold,  # noqa: F821
+            design=snakemake.wildcards.design,  # noqa: F821
+            **snakemake.params,  # noqa: F821
+        )
