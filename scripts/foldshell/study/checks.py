@@ -1,8 +1,7 @@
 """Checks of settings against each other, which a schema cannot state."""
 
-import difflib
-
 from foldshell.study.errors import InputError
+from foldshell.study.nearest import hint_nearest
 from foldshell.study.options import Combinations, Crosscheck, Sizing
 
 
@@ -33,10 +32,9 @@ def check_crosscheck(crosscheck: Crosscheck, combinations: Combinations, source:
         name = getattr(crosscheck, key)
         known = list(getattr(combinations, key))
         if name not in known:
-            near = difflib.get_close_matches(name, known, n=1)
             raise InputError(
                 f"{source}: crosscheck.{key}: {name!r}: a combination under combinations.{key} "
-                f"is allowed ({', '.join(known)})" + (f", the nearest is {near[0]}" if near else "")
+                f"is allowed ({', '.join(known)})" + hint_nearest(name, known)
             )
     for key in ("subdivisions", "primary_subdivisions"):
         coarse, fine = getattr(crosscheck, key)

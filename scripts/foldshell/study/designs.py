@@ -1,7 +1,6 @@
 """The table of designs: read strictly, validate, fill in defaults, choose by tag."""
 
 import csv
-import difflib
 import functools
 import io
 import re
@@ -12,6 +11,7 @@ from typing import Any
 
 from foldshell.study.config_file import read_text
 from foldshell.study.errors import InputError
+from foldshell.study.nearest import hint_nearest
 from foldshell.study.options import Settings
 from foldshell.study.schema import load_schema, validate
 from foldshell.study.units import convert_units
@@ -89,8 +89,7 @@ def select_designs(designs: Iterable[Design], tag: str, source: str = "designs")
     chosen = [design for design in designs if tag in design.tags]
     if not chosen:
         known = sorted({tag for design in designs for tag in design.tags})
-        near = difflib.get_close_matches(tag, known, n=1)
-        hint = f", the nearest is {near[0]}" if near else f", known tags are {', '.join(known)}"
+        hint = hint_nearest(tag, known) or f", known tags are {', '.join(known)}"
         raise InputError(f"{source}: tags: {tag!r}: no design has this tag{hint}")
     return chosen
 
@@ -133,9 +132,8 @@ def _check_header(header: list[str], place: str) -> None:
         raise InputError(f"{place}: {header[0][:60]!r}: column names with tabs between are allowed")
     for index, column in enumerate(header):
         if column not in COLUMNS:
-            near = difflib.get_close_matches(column, COLUMNS, n=1)
-            hint = f"the nearest is {near[0]}" if near else f"allowed are {', '.join(COLUMNS)}"
-            raise InputError(f"{place}: column {index + 1}: {column!r}: unknown column, {hint}")
+            hint = hint_nearest(column, COLUMNS) or f", allowed are {', '.join(COLUMNS)}"
+            raise InputError(f"{place}: column {index + 1}: {column!r}: unknown column{hint}")
         if column in header[:index]:
             raise InputError(f"{place}: column {index + 1}: {column!r}: the column stands twice")
     if "design" not in header:
@@ -205,8 +203,7 @@ def _check_surface(surface: str, where: str) -> None:
         if not path.is_file():
             raise InputError(f"{where}: surface: {surface!r}: no such file")
         return
-    near = difflib.get_close_matches(surface.casefold(), SURFACES, n=1)
-    hint = f", the nearest is {near[0]}" if near else ""
+    hint = hint_nearest(surface.casefold(), SURFACES)
     raise InputError(
         f"{where}: surface: {surface!r}: one of {', '.join(SURFACES)} or a mesh file "
         f"({', '.join(SURFACE_FILES)}) is allowed{hint}"

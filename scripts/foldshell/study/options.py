@@ -43,6 +43,14 @@ class FoldWeights:
 
 
 @dataclass(frozen=True)
+class FoldLimits:
+    """What a folded sheet must keep (-)."""
+
+    rms_over_span: float
+    plan_coverage: float
+
+
+@dataclass(frozen=True)
 class Fold:
     """Folding onto the target surface."""
 
@@ -50,6 +58,8 @@ class Fold:
     attract: str
     weights: FoldWeights
     max_iterations: int
+    tolerance: float
+    limits: FoldLimits
 
 
 @dataclass(frozen=True)

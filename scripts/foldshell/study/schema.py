@@ -1,6 +1,5 @@
 """JSON Schema in YAML files: load, fill in defaults, validate with one sentence an error."""
 
-import difflib
 import math
 import re
 from collections.abc import Iterator, Mapping
@@ -11,6 +10,7 @@ import jsonschema
 import yaml
 
 from foldshell.study.errors import InputError
+from foldshell.study.nearest import find_nearest, hint_nearest
 
 CONFIG_FOLDER = Path(__file__).resolve().parents[3] / "config"
 _NUMBERS = {"number": "a number", "integer": "a whole number"}
@@ -164,21 +164,20 @@ def describe_unknown_key(
     place: str, key: str, parent: str, known: list[str], schema: Mapping[str, Any]
 ) -> str:
     """Say that a key is unknown and which known one is nearest, in its group or elsewhere."""
-    near = difflib.get_close_matches(key, known, n=1)
+    near = find_nearest(key, known)
     if near:
-        return f"{place}: unknown key, the nearest is {join_place(parent, near[0])}"
+        return f"{place}: unknown key, the nearest is {join_place(parent, near)}"
     elsewhere = {leaf[-1]: ".".join(leaf) for leaf, _ in iterate_leaves(schema)}
-    other = difflib.get_close_matches(key, list(elsewhere), n=1, cutoff=0.8)
+    other = find_nearest(key, elsewhere, cutoff=0.8)
     if other:
-        return f"{place}: unknown key, the nearest is {elsewhere[other[0]]}"
+        return f"{place}: unknown key, the nearest is {elsewhere[other]}"
     return f"{place}: unknown key, allowed are {', '.join(known)}"
 
 
 def describe_hint(value: Any, schema: Mapping[str, Any]) -> str:
     """Say what was probably meant: a decimal comma, a number with an exponent, a near name."""
     if isinstance(value, str) and "enum" in schema:
-        near = difflib.get_close_matches(value.casefold(), schema["enum"], n=1)
-        return f", the nearest is {near[0]}" if near else ""
+        return hint_nearest(value.casefold(), schema["enum"])
     if not isinstance(value, str) or schema.get("type") not in _NUMBERS:
         return ""
     if re.fullmatch(r"[-+]?\d+,\d+", value.strip()):

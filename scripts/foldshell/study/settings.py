@@ -19,6 +19,7 @@ from foldshell.study.options import (
     Defaults,
     Figures,
     Fold,
+    FoldLimits,
     FoldWeights,
     Limits,
     Loads,
@@ -51,7 +52,11 @@ _GROUPS = {
     "limits": Limits,
     "figures": Figures,
 }
-_NESTED = {("fold", "weights"): FoldWeights, ("crosscheck", "tolerance"): Tolerance}
+_NESTED = {
+    ("fold", "weights"): FoldWeights,
+    ("fold", "limits"): FoldLimits,
+    ("crosscheck", "tolerance"): Tolerance,
+}
 
 
 @functools.cache

@@ -1,12 +1,12 @@
 """Read the thicknesses from a workbook that a person may have edited."""
 
-import difflib
 import re
 from pathlib import Path
 
 import numpy as np
 
 from foldshell.study.errors import InputError
+from foldshell.study.nearest import hint_nearest
 from foldshell.workbook.cells import Cell, read_cells
 from foldshell.workbook.package import open_package
 from foldshell.workbook.panels import FloatArray, PanelGrid, round_thickness
@@ -28,8 +28,7 @@ def read_thickness(path: str | Path, grid: PanelGrid, least: float, largest: flo
     package = open_package(path)
     sheets = package.find_sheets()
     if SHEET not in sheets:
-        near = difflib.get_close_matches(SHEET, sheets, n=1)
-        hint = f", the nearest is {near[0]!r}" if near else ""
+        hint = hint_nearest(SHEET, sheets)
         raise InputError(f"{path}: sheet {SHEET!r} is missing{hint}")
     rows = read_cells(package, SHEET, sheets[SHEET])
     place = f"{path}: sheet {SHEET}"
