@@ -21,13 +21,20 @@ _CRITERIA = [
     "sizing.stop",
 ]
 _ANALYSIS = [
-    "analysis.subdivisions",
     "analysis.second_order",
     "analysis.second_order_tolerance",
     "analysis.second_order_iterations_max",
     "analysis.solver",
 ]
-_STRENGTH = ["material", "loads", "combinations"]
+_STRENGTH = [
+    "material",
+    "loads.superimposed_dead",
+    "loads.live",
+    "loads.wind",
+    "loads.wind_fraction",
+    "loads.area_basis",
+    "combinations",
+]
 _BOUNDS = ["sizing.least_thickness", "sizing.largest_thickness"]
 STAGES: dict[str, list[str]] = {
     "pattern": ["pattern"],
@@ -39,7 +46,7 @@ STAGES: dict[str, list[str]] = {
     "size": [*_STRENGTH, *_ANALYSIS, "sizing"],
     "crosscheck": [*_STRENGTH, "crosscheck"],
     "figures": ["figures"],
-    "study": ["pattern", "fold", *_STRENGTH, *_ANALYSIS, "sizing", "crosscheck"],
+    "study": ["pattern", "fold", *_STRENGTH, "analysis", "sizing", "crosscheck"],
 }
 
 

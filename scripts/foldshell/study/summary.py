@@ -5,6 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from foldshell.study.files import read_json
+from foldshell.workbook.history import find_least_factor
 
 SUMMARY_KEYS = (
     "design",
@@ -56,7 +57,7 @@ def make_summary_row(
     row["displacement_vertical_max_m"] = last.get("displacement_vertical_max_m")
     row["iterations"] = len(analyses) or None
     row["volume_per_area_m"] = _divide(last.get("volume_m3"), last.get("area_m2"))
-    row["buckling_factor_min"] = _least(last.get("buckling_factor"))
+    row["buckling_factor_min"] = find_least_factor(last)
     row["state"], row["reason"] = _judge(quality, last, problems)
     row["mesh_error"] = _read_optional(folder / "mesh_study.json").get("mesh_error")
     passed = _read_optional(folder / "crosscheck/comparison.json").get("pass")
@@ -117,8 +118,3 @@ def _judge(
 
 def _divide(value: float | None, by: float | None) -> float | None:
     return value / by if value is not None and by else None
-
-
-def _least(factors: Mapping[str, float | None] | None) -> float | None:
-    values = [factor for factor in (factors or {}).values() if factor is not None]
-    return min(values) if values else None

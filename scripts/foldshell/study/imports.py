@@ -1,0 +1,52 @@
+"""Which library files a script depends on, found by following its import statements.
+
+Snakemake runs a rule again when its script changes, but not when a module that the script imports
+does. Rules therefore list these files as inputs.
+"""
+
+import ast
+import functools
+from pathlib import Path
+
+
+def library_files(script: str | Path, root: str | Path) -> list[str]:
+    """Return the files below `root` that a script imports, directly or not, sorted.
+
+    Parameters
+    ----------
+    script : path of a Python file
+    root : the folder from which its imports are resolved
+    """
+    root = Path(root)
+    found: set[Path] = set()
+    pending = list(_imported(Path(script), root))
+    while pending:
+        path = pending.pop()
+        if path not in found:
+            found.add(path)
+            pending.extend(_imported(path, root))
+    return sorted(str(path) for path in found)
+
+
+@functools.cache
+def _imported(path: Path, root: Path) -> tuple[Path, ...]:
+    """Return the files below `root` that one file imports, packages' __init__ included."""
+    names: set[str] = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            names.update(alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
+            names.add(node.module)
+            names.update(f"{node.module}.{alias.name}" for alias in node.names)
+    files = (file for name in sorted(names) for file in _resolve(name, root))
+    return tuple(file for file in dict.fromkeys(files) if file != path)
+
+
+def _resolve(name: str, root: Path) -> list[Path]:
+    """Return the module file of a dotted name and the __init__ files on the way to it."""
+    parts = name.split(".")
+    package_files = [root.joinpath(*parts[:k], "__init__.py") for k in range(1, len(parts) + 1)]
+    module = root.joinpath(*parts).with_suffix(".py")
+    if not (module.exists() or root.joinpath(*parts, "__init__.py").exists()):
+        return []
+    return [file for file in [*package_files, module] if file.exists()]

@@ -1,0 +1,175 @@
+"""The script summary: one row a design, whatever became of it."""
+
+import csv
+import json
+
+import openpyxl
+import pytest
+
+import summary
+from foldshell.study.errors import InputError
+from foldshell.study.settings import make_settings
+from foldshell.study.stages import settings_hash, stage_parameters
+from foldshell.study.summary import SUMMARY_KEYS
+
+SETTINGS = stage_parameters(make_settings({}), "study")
+CONTRACT = [
+]
+    "design",
+    "tags",
+    "pattern",
+    "surface",
+    "span_m",
+    "height_m",
+    "zigzag",
+    "strip",
+    "support",
+    "fold_mode",
+    "state",
+    "iterations",
+    "volume_m3",
+    "volume_per_area_m",
+    "utilization_max",
+    "utilization_p99",
+    "utilization_mean",
+    "displacement_vertical_max_m",
+    "buckling_factor_min",
+    "mesh_subdivisions",
+    "mesh_error",
+    "crosscheck",
+    "settings_hash",
+]
+
+
+def make_design(name):
+    return {
+        "design": name,
+        "tags": "table1,supports",
+        "pattern": "miura",
+        "surface": "arch",
+        "span_m": 28.0,
+        "height_m": 10.0,
+        "zigzag": 15,
+        "strip": 16,
+        "support": "all",
+        "fold_mode": "paper",
+        "mesh_subdivisions": 4,
+    }
+
+
+def write(path, data):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(data if isinstance(data, str) else json.dumps(data), encoding="utf-8")
+
+
+def write_results(folder, iterations=3, verdict="converged", state="ok"):
+    write(folder / "folded/quality.json", {"state": state, "reason": "too steep", "seconds": 0.3})
+    for number in range(iterations):
+        analysis = {
+            "iteration": number,
+            "verdict": verdict if number == iterations - 1 else "continue",
+            "reason": "all criteria are met",
+            "utilization_max": 0.95,
+            "utilization_p99": 0.9,
+            "utilization_mean": 0.31,
+            "displacement_vertical_max_m": 0.0312,
+            "volume_m3": 90.0 - number,
+            "area_m2": 1100.0,
+            "buckling_factor": {"S1": 30.0, "S2": 21.5, "S3": None},
+            "seconds": 1.23,
+        }
+        write(folder / f"sizing/{number:02d}/analysis.json", analysis)
+
+
+def run(tmp_path, names):
+    paths = tmp_path / "summary.csv", tmp_path / "summary.xlsx"
+    summary.main([make_design(name) for name in names], tmp_path / "results", SETTINGS, *paths)
+    with paths[0].open(encoding="utf-8", newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
+def test_columns_begin_as_in_the_contract():
+    assert list(SUMMARY_KEYS[: len(CONTRACT)]) == CONTRACT
+
+
+def test_a_converged_design(tmp_path):
+    folder = tmp_path / "results/a"
+    write_results(folder)
+    write(folder / "mesh_study.json", {"mesh_error": 0.021})
+    write(folder / "crosscheck/comparison.json", {"pass": True, "quantities": {}})
+    (row,) = run(tmp_path, ["a"])
+    assert row["state"] == "converged" and row["iterations"] == "3"
+    assert float(row["volume_m3"]) == 88.0
+    assert float(row["volume_per_area_m"]) == 88.0 / 1100.0
+    assert float(row["buckling_factor_min"]) == 21.5
+    assert float(row["mesh_error"]) == 0.021
+    assert row["crosscheck"] == "pass" and row["mesh_subdivisions"] == "4"
+    assert row["settings_hash"] == settings_hash(SETTINGS)
+    assert row["tags"] == "table1,supports" and row["span_m"] == "28.0"
+
+
+def test_each_ending_has_its_row(tmp_path):
+    results = tmp_path / "results"
+    write_results(results / "fine")
+    write_results(results / "open", verdict="not_converged")
+    write_results(results / "crumpled", state="crumpled")
+    write_results(results / "cut", iterations=2, verdict="continue")
+    write_results(results / "spoilt")
+    write(results / "spoilt/sizing/01/analysis.json", '{"verdict": "conv')
+    write(results / "fine/crosscheck/comparison.json", {"pass": False})
+    rows = {
+        row["design"]: row
+        for row in run(tmp_path, [*sorted(p.name for p in results.iterdir()), "none"])
+    }
+    states = {name: row["state"] for name, row in rows.items()}
+    assert states == {
+        "fine": "converged",
+        "open": "not_converged",
+        "crumpled": "crumpled",
+        "cut": "failed",
+        "spoilt": "failed",
+        "none": "failed",
+    }
+    assert rows["fine"]["crosscheck"] == "fail" and rows["open"]["crosscheck"] == ""
+    assert rows["crumpled"]["reason"] == "too steep"
+    assert rows["cut"]["reason"] == "sizing/02/analysis.json is missing"
+    assert rows["cut"]["volume_m3"] == "89.0"
+    assert rows["spoilt"]["reason"] == "sizing/01/analysis.json is damaged"
+    assert "quality.json is missing" in rows["none"]["reason"]
+
+
+def test_leftovers_of_an_older_run_do_not_mix_in(tmp_path):
+    """Iterations past the verdict stem from before an edit."""
+    folder = tmp_path / "results/a"
+    write_results(folder, iterations=6, verdict="not_converged")
+    write_results(folder, iterations=3)
+    (row,) = run(tmp_path, ["a"])
+    assert (row["state"], row["iterations"], row["volume_m3"]) == ("converged", "3", "88.0")
+
+
+def test_the_same_results_give_the_same_bytes(tmp_path):
+    write_results(tmp_path / "results/a")
+    run(tmp_path, ["a", "b"])
+    before = [(tmp_path / name).read_bytes() for name in ("summary.csv", "summary.xlsx")]
+    write_results(tmp_path / "results/a")
+    run(tmp_path, ["a", "b"])
+    after = [(tmp_path / name).read_bytes() for name in ("summary.csv", "summary.xlsx")]
+    assert before == after
+    assert b"seconds" not in before[0]
+
+
+def test_workbook_has_the_same_rows_below_a_units_row(tmp_path):
+    write_results(tmp_path / "results/a")
+    rows = run(tmp_path, ["a", "b"])
+    sheet = openpyxl.load_workbook(tmp_path / "summary.xlsx").worksheets[0]
+    values = list(sheet.iter_rows(values_only=True))
+    assert list(values[0]) == list(rows[0]) and values[1][4] == "m"
+    for shown, row in zip(values[2:], rows, strict=True):
+        for value, text in zip(shown, row.values(), strict=True):
+            same = float(text) == value if isinstance(value, float) else text == str(value or "")
+            assert same or float(text) == value
+
+
+def test_no_design_at_all(tmp_path):
+    with pytest.raises(InputError, match="at least one"):
+        summary.main([], tmp_path, SETTINGS, tmp_path / "a.csv", tmp_path / "a.xlsx")

@@ -1,0 +1,203 @@
+"""history, design and summary workbooks: content, units, charts, same bytes."""
+
+import csv
+import time
+import zipfile
+
+import numpy as np
+import openpyxl
+import pytest
+
+from foldshell.study.settings import make_settings
+from foldshell.study.stages import stage_parameters
+from foldshell.study.summary import SUMMARY_KEYS
+from foldshell.workbook.design import DesignReport, flatten, write_design
+from foldshell.workbook.history import (
+    HISTORY_KEYS,
+    make_history,
+    write_history,
+    write_history_csv,
+)
+from foldshell.workbook.panels import make_panel_grid
+from foldshell.workbook.styles import split_unit
+from foldshell.workbook.summary import write_summary
+
+GRID = make_panel_grid(4, 5)
+
+
+def make_analysis(iteration: int, **changes):
+    analysis = {
+        "iteration": iteration,
+        "verdict": "continue",
+        "reason": "utilization above 1",
+        "volume_m3": 100.0 - 7.0 * iteration,
+        "area_m2": 1000.0,
+        "utilization_max": 1.2,
+        "utilization_p99": 0.9,
+        "utilization_panel_mean_max": 1.1,
+        "panels_above_one": 3,
+        "displacement_vertical_max_m": 0.02,
+        "buckling_factor": {"S1": 12.0, "S2": 10.5, "D1": None},
+        "reaction_imbalance": 1e-13,
+        "second_order_iterations": {"S1": 6, "S2": 8},
+    }
+    return {**analysis, **changes}
+
+
+@pytest.fixture
+def rows():
+    analyses = [make_analysis(0), make_analysis(1), make_analysis(2, verdict="converged")]
+    thicknesses = [np.full(12, 0.15), np.linspace(0.1, 0.2, 12), np.full(12, 0.1)]
+    return make_history(analyses, thicknesses, 28 / 240, edited=[1])
+
+
+def test_history_rows(rows):
+    assert [row["volume_change_m3"] for row in rows] == [None, -7.0, -7.0]
+    assert {row["buckling_factor_min"] for row in rows} == {10.5}
+    assert {row["second_order_iterations"] for row in rows} == {8}
+    assert [row["edited"] for row in rows] == [None, "edited", None]
+    assert rows[1]["thickness_mean_m"] == pytest.approx(0.15)
+    assert set(rows[0]) == set(HISTORY_KEYS)
+
+
+def test_history_without_results_has_empty_cells():
+    """An unstable analysis has neither volume nor factors: its row is still there."""
+    (row,) = make_history([{"iteration": 0, "verdict": "unstable", "reason": "mechanism"}])
+    assert row["volume_m3"] is None and row["buckling_factor_min"] is None
+    assert row["verdict"] == "unstable"
+
+
+def test_history_csv_keeps_all_digits(tmp_path, rows):
+    write_history_csv(tmp_path / "history.csv", rows)
+    with (tmp_path / "history.csv").open(encoding="utf-8", newline="") as stream:
+        read = list(csv.DictReader(stream))
+    assert [float(row["displacement_limit_m"]) for row in read] == [28 / 240] * 3
+    assert read[0]["volume_change_m3"] == "" and read[2]["verdict"] == "converged"
+
+
+def test_history_workbook_charts_leave_header_and_units_out(tmp_path, rows):
+    """Data begin in row 3; a chart that began in row 2 would plot the unit."""
+    path = tmp_path / "history.xlsx"
+    write_history(path, rows, {"design": "a", "verdict": "converged"})
+    book = openpyxl.load_workbook(path)
+    assert book.sheetnames == ["summary", "history", "charts"]
+    values = list(book["history"].iter_rows(values_only=True))
+    assert values[0] == HISTORY_KEYS and values[1][3] == "m3" and len(values) == 5
+    with zipfile.ZipFile(path) as archive:
+        charts = [
+            archive.read(name).decode() for name in archive.namelist() if "charts/chart" in name
+        ]
+    assert len(charts) == 4
+    for chart in charts:
+        assert "history!$A$3:$A$5" in chart and "$2" not in chart
+        assert '<c:smooth val="1"/>' not in chart
+
+
+def test_one_iteration_still_gives_a_workbook(tmp_path, rows):
+    write_history(tmp_path / "history.xlsx", rows[:1], {})
+    assert openpyxl.load_workbook(tmp_path / "history.xlsx")["history"].max_row == 3
+
+
+def make_report(rows):
+    settings = make_settings({})
+    return DesignReport(
+        title="Design a",
+        verdict={"design": "a", "verdict": "converged", "volume_m3": 86.0},
+        criteria={
+            "utilization": {"value": 0.9, "limit": [0.6, 1.0], "met": True},
+            "volume_change_m3": {"value": None, "limit": 10.0, "met": False},
+        },
+        grid=GRID,
+        thickness=np.linspace(0.05, 0.2, 12),
+        utilization=np.linspace(0.2, 1.1, 12),
+        thickness_class=np.arange(12) % 3 + 1,
+        history=rows,
+        loads={"live_kn_m2": 1.0},
+        combinations={"strength": settings.combinations.strength},
+        settings=stage_parameters(settings, "study"),
+        versions={"foldshell": "0.1.0"},
+        sources=("=HYPERLINK()",),
+    )
+
+
+def test_design_workbook(tmp_path, rows):
+    path = tmp_path / "design.xlsx"
+    write_design(path, make_report(rows))
+    book = openpyxl.load_workbook(path)
+    assert book.sheetnames == ["summary", "panels", "history", "charts", "loads", "notes"]
+    panels = list(book["panels"].iter_rows(values_only=True))
+    assert panels[0] == ("panel", "zigzag", "strip", "thickness_m", "utilization", "class")
+    assert panels[1] == ("-", "-", "-", "m", "-", "-")
+    assert panels[13] == (11, 2, 3, 0.2, 1.1, 3)
+    loads = {row[0]: row for row in book["loads"].iter_rows(values_only=True)}
+    assert loads["S2"][2:7] == (1.2, 1.2, 1.6, 0.5, None)
+    assert loads["live"][1:3] == (1, "kN/m2")
+    notes = {row[0]: row[1] for row in book["notes"].iter_rows(values_only=True)}
+    assert notes["material.youngs_modulus"] == 31e6
+    assert notes["version of foldshell"] == "0.1.0" and notes["source"] == "=HYPERLINK()"
+    cells = {cell.data_type for row in book["notes"].iter_rows() for cell in row}
+    assert "f" not in cells
+
+
+def test_summary_workbook(tmp_path):
+    rows = [
+        {"design": "a", "state": "converged", "volume_m3": 86.0, "crosscheck": "pass"},
+        {"design": "b", "state": "failed", "reason": "sizing/00/analysis.json is missing"},
+    ]
+    path = tmp_path / "summary.xlsx"
+    write_summary(path, SUMMARY_KEYS, rows, {"sizing": {"step": 0.1}})
+    book = openpyxl.load_workbook(path)
+    assert book.sheetnames == ["summary", "overview", "notes"]
+    values = list(book["summary"].iter_rows(values_only=True))
+    assert values[0] == SUMMARY_KEYS
+    units = dict(zip(SUMMARY_KEYS, values[1], strict=True))
+    assert units["span_m"] == "m" and units["volume_per_area_m"] == "m3/m2"
+    assert values[3][0] == "b" and values[3][10] == "failed"
+    overview = list(book["overview"].iter_rows(min_row=3, values_only=True))
+    assert overview == [("converged", 1), ("failed", 1)]
+
+
+def test_same_values_give_the_same_bytes(tmp_path, rows):
+    def write(folder):
+        write_history(folder / "history.xlsx", rows, {"design": "a"})
+        write_design(folder / "design.xlsx", make_report(rows))
+        write_summary(folder / "summary.xlsx", SUMMARY_KEYS, [{"design": "a"}], {})
+        return [path.read_bytes() for path in sorted(folder.iterdir())]
+
+    first, second = tmp_path / "first", tmp_path / "second"
+    first.mkdir()
+    second.mkdir()
+    before = write(first)
+    time.sleep(2.1)  # a zip entry's time has steps of two seconds
+    assert write(second) == before
+
+
+def test_not_finite_values_leave_no_file(tmp_path, rows):
+    rows[0]["volume_m3"] = float("nan")
+    with pytest.raises(TypeError):
+        write_history(tmp_path / "history.xlsx", rows, {})
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize(
+    ("key", "expected"),
+    [
+        ("volume_m3", ("volume", "m3")),
+        ("span_m", ("span", "m")),
+        ("volume_per_area_m", ("volume per area", "m3/m2")),
+        ("live_kn_m2", ("live", "kN/m2")),
+        ("start_thickness_mm", ("start thickness", "mm")),
+        ("utilization_max", ("utilization max", "-")),
+        ("settings_hash", ("settings hash", "-")),
+    ],
+)
+def test_units_come_from_the_key(key, expected):
+    assert split_unit(key) == expected
+
+
+def test_flatten():
+    assert flatten({"a": {"b": 1, "c": {"d": [1, 2]}}, "e": "f"}) == {
+        "a.b": 1,
+        "a.c.d": "1, 2",
+        "e": "f",
+    }
