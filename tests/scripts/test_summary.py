@@ -14,7 +14,6 @@ from foldshell.study.summary import SUMMARY_KEYS
 
 SETTINGS = stage_parameters(make_settings({}), "study")
 CONTRACT = [
-]
     "design",
     "tags",
     "pattern",
