@@ -1,7 +1,7 @@
 """The shell analysis of one thickness vector: what Karamba did in the paper's loop."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -19,11 +19,11 @@ from foldshell.shell.stress import membrane_forces
 
 @dataclass(frozen=True)
 class AnalysisOptions:
-    """How to analyse; see `solve_second_order` and `find_buckling_factors` for the tolerances."""
+    """How to analyse; see `solve_second_order` for the tolerance and the limit."""
 
     second_order: bool = True
-    tolerance: float = 1e-8
-    iterations_max: int = 60
+    second_order_tolerance: float = 1e-8
+    second_order_iterations_max: int = 60
     solver: str = "cholmod"
 
 
@@ -39,7 +39,7 @@ class ShellModel:
 
 @dataclass(frozen=True)
 class AnalysisResult:
-    """Displacements and forces of every combination.
+    """Displacements of every combination, and how they came about.
 
     Attributes
     ----------
@@ -48,7 +48,6 @@ class AnalysisResult:
     names : combination names; c of them
     displacement : (dofs, c) m and rad, second order where asked for
     linear : (dofs, c) first order
-    case_force : (E, 3, m, cases) first-order membrane forces of the load cases, kN/m
     loads : (dofs, c) kN
     buckling : factors and modes (free, c), or None
     second_order : iterations and residual, or None
@@ -64,7 +63,6 @@ class AnalysisResult:
     buckling: BucklingResult | None = None
     second_order: SecondOrderResult | None = None
     place: int | None = None
-    notes: dict = field(default_factory=dict)
 
 
 def build_model(
@@ -192,7 +190,10 @@ class _Solution:
             return -self._factor.solve(force[free])
 
         return solve_second_order(
-            linear[free], correction, options.tolerance, options.iterations_max
+            linear[free],
+            correction,
+            options.second_order_tolerance,
+            options.second_order_iterations_max,
         )
 
 

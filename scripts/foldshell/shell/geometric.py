@@ -70,7 +70,7 @@ def apply_geometric(
 
 
 def assemble_geometric(geometric: GeometricOperator, force: np.ndarray) -> list[csr_array]:
-    """Return K_g of each column of N (E, 3, m, c) as a matrix (N, N) that acts on x, y and z alike."""
+    """Return K_g of each column of N (E, 3, m, c): a matrix over nodes for x, y and z alike."""
     elements = geometric.operators.mesh.elements
     count, nodes = elements.shape
     size = len(geometric.operators.mesh.nodes)

@@ -8,8 +8,9 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Material:
-    """An isotropic elastic material, in kN and m."""
+    """An isotropic elastic material: moduli and strengths in kPa, unit weight in kN/m3."""
 
+    name: str
     youngs_modulus: float
     poissons_ratio: float
     unit_weight: float

@@ -26,7 +26,8 @@ class ReferenceTriangle:
     degree p - 1 at most. `edge_gradient` (3, 2, m, n) and `edge_rotation` (3, m, p) are the
     integrals over an edge of unit length of an orthonormal function times a derivative, or
     times a Legendre polynomial. `edge_slope` (3, 2, p, n) holds the derivatives on an edge as
-    coefficients of Legendre polynomials scaled to mean square one. `load` (n,) and `mass` (n, n) are means over the triangle.
+    coefficients of Legendre polynomials scaled to mean square one. `load` (n,) and `mass`
+    (n, n) are means over the triangle.
     """
 
     order: int

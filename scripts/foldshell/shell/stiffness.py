@@ -26,8 +26,8 @@ class ShellOperators:
 
     `membrane_strain` (E, 3m, 3n) and `curvature` (E, 3m, 3n + 3p) give strain coefficients from
     an element's degrees of freedom, `slope_jump` (E, 3p, 3n + 3p) the jumps that the springs of
-    stiffness t^3 `slope_spring` (E, 3p) resist; `membrane` and `bending` (E, d(d+1)/2) are the packed lower
-    triangles of the two stiffness matrices; `dofs` (E, d) are global numbers.
+    stiffness t^3 `slope_spring` (E, 3p) resist; `membrane` and `bending` (E, d(d+1)/2) are the
+    packed lower triangles of the two stiffness matrices; `dofs` (E, d) are global numbers.
     """
 
     mesh: ShellMesh

@@ -1,0 +1,70 @@
+"""Folded shell structures, from crease pattern to sized and cross-checked structure.
+
+`snakemake --cores 2` runs the study, `snakemake --cores 2 demo` one small design,
+`snakemake --cores 2 tag_<tag>` a part of config/designs.tsv. One stage a file in rules/.
+"""
+
+import os
+import sys
+from pathlib import Path
+
+from snakemake.utils import min_version
+
+min_version("9.0")
+os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+os.environ.setdefault("OMP_NUM_THREADS", "1")
+sys.path.insert(0, str(Path(workflow.basedir) / "scripts"))
+
+from foldshell.study.errors import user_errors
+from foldshell.study.load import load_study
+from foldshell.workbook.edits import keep_all_edited
+
+
+configfile: "config/config.yaml"
+
+
+with user_errors():
+    SETTINGS, DESIGNS = load_study(config, workflow.configfiles)
+
+
+RESULTS = "results"
+
+for path in keep_all_edited(RESULTS):
+    print(f"kept a copy of the edited workbook {path}", file=sys.stderr)
+
+
+wildcard_constraints:
+    design=r"[a-z0-9][a-z0-9_-]{0,63}",
+    iteration=r"\d\d",
+    tag=r"[a-z0-9][a-z0-9_-]{0,63}",
+
+
+include: "rules/common.smk"
+
+
+rule all:
+    default_target: True
+    input:
+        study_files(SETTINGS.study),
+        f"{RESULTS}/summary.csv",
+        f"{RESULTS}/summary.xlsx",
+
+
+include: "rules/pattern.smk"
+include: "rules/fold.smk"
+include: "rules/shell.smk"
+include: "rules/sizing.smk"
+include: "rules/crosscheck.smk"
+include: "rules/study.smk"
+include: "rules/deliver.smk"
+
+
+for TAG in sorted({tag for design in DESIGNS for tag in design.tags}):
+
+    rule:
+        name:
+            "demo" if TAG == "demo" else f"tag_{TAG}"
+        input:
+            study_files(TAG),
+            f"{RESULTS}/tags/{TAG}/summary.csv",
+            f"{RESULTS}/tags/{TAG}/summary.xlsx",

@@ -1,0 +1,48 @@
+# What the rules of all stages share: designs by name, parameters of a stage, library files.
+
+from foldshell.study.designs import select_designs
+from foldshell.study.imports import library_files
+from foldshell.study.stages import choose_subdivisions, settings_hash, stage_parameters
+
+BY_NAME = {design.name: design for design in DESIGNS}
+SCRIPTS = os.path.relpath(Path(workflow.basedir) / "scripts")
+
+
+def library(script):
+    """Return the library files that a rule's script imports, as inputs of the rule."""
+    return library_files(f"{SCRIPTS}/{script}.py", SCRIPTS)
+
+
+def of_design(*columns):
+    """Return a function of the wildcards that gives columns of designs.tsv as parameters."""
+    return {
+        column: (lambda wildcards, column=column: BY_NAME[wildcards.design].to_row()[column])
+        for column in columns
+    }
+
+
+def of_stage(stage):
+    """Return a function of the wildcards that gives the plain settings of a stage."""
+    return lambda wildcards: stage_parameters(SETTINGS, stage, BY_NAME[wildcards.design])
+
+
+def subdivisions(wildcards):
+    """Return the subdivisions of a facet edge."""
+    return choose_subdivisions(SETTINGS, BY_NAME[wildcards.design])
+
+
+def settings_hash_of(stage):
+    """Return a function of the wildcards that gives the hash of a stage's settings."""
+    return lambda wildcards: settings_hash(of_stage(stage)(wildcards))
+
+
+def names_of_tag(tag):
+    """Return the names of the designs with a tag."""
+    with user_errors():
+        return [design.name for design in select_designs(DESIGNS, tag, SETTINGS.designs)]
+
+
+def study_files(tag):
+    """Return what is made of every design with a tag."""
+    files = ["design.xlsx", "crosscheck/comparison.json", "figures/done.json"]
+    return [f"{RESULTS}/{name}/{file}" for name in names_of_tag(tag) for file in files]

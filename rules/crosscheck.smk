@@ -1,0 +1,57 @@
+# The final state once more, by an independent FE code, each code on two meshes.
+
+
+rule neutral_model:
+    message:
+        "{wildcards.design}: neutral model"
+    input:
+        mesh=rules.mesh.output.mesh,
+        final=rules.size.output.arrays,
+        library=library("neutral_model"),
+    output:
+        model=f"{RESULTS}/{{design}}/crosscheck/model.json",
+    params:
+        settings=of_stage("crosscheck"),
+    conda:
+        "../envs/foldshell.yaml"
+    script:
+        "../scripts/neutral_model.py"
+
+
+rule refine:
+    message:
+        "{wildcards.design}: mesh error"
+    input:
+        folded=rules.fold.output.folded,
+        final=rules.size.output.arrays,
+        library=library("refine"),
+    output:
+        study=f"{RESULTS}/{{design}}/mesh_study.json",
+        primary=f"{RESULTS}/{{design}}/crosscheck/primary.json",
+    params:
+        **of_design("support"),
+        subdivisions=subdivisions,
+        meshes=SETTINGS.crosscheck.primary_subdivisions,
+        settings=of_stage("crosscheck"),
+    conda:
+        "../envs/foldshell.yaml"
+    script:
+        "../scripts/refine.py"
+
+
+rule crosscheck:
+    message:
+        "{wildcards.design}: cross-check by the independent code"
+    input:
+        model=rules.neutral_model.output.model,
+        primary=rules.refine.output.primary,
+        library=library("crosscheck"),
+    output:
+        comparison=f"{RESULTS}/{{design}}/crosscheck/comparison.json",
+        workbook=f"{RESULTS}/{{design}}/crosscheck/comparison.xlsx",
+    params:
+        settings=lambda wildcards: of_stage("crosscheck")(wildcards)["crosscheck"],
+    conda:
+        "../envs/foldshell.yaml"
+    script:
+        "../scripts/crosscheck.py"

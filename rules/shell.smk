@@ -1,0 +1,16 @@
+rule mesh:
+    message:
+        "{wildcards.design}: shell mesh and supports"
+    input:
+        folded=rules.fold.output.folded,
+        library=library("mesh"),
+    output:
+        mesh=f"{RESULTS}/{{design}}/shell/mesh.npz",
+        vtu=f"{RESULTS}/{{design}}/shell/mesh.vtu",
+    params:
+        **of_design("support"),
+        subdivisions=subdivisions,
+    conda:
+        "../envs/foldshell.yaml"
+    script:
+        "../scripts/mesh.py"

@@ -1,0 +1,55 @@
+"""The neutral model: everything another FE program needs, in words and plain numbers."""
+
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+FORMAT = "foldshell-neutral-model 1"
+
+
+def make_neutral_model(
+    design: str,
+    mesh: Mapping[str, np.ndarray],
+    panel_thickness: np.ndarray,
+    settings: Mapping[str, Any],
+) -> dict[str, Any]:
+    """Return the neutral model as plain data in kN, m and kPa.
+
+    Facets are flat triangles, counter-clockwise seen from above; every mesh node on a supported
+    edge is pinned (translations only). No finite element mesh is given: the reader makes its own.
+
+    Parameters
+    ----------
+    mesh : arrays of mesh.npz
+    panel_thickness : (P,) m
+    settings : plain parameters of the stage `crosscheck`
+    """
+    material, loads = settings["material"], settings["loads"]
+    groups, compare = settings["combinations"], settings["crosscheck"]
+    return {
+        "format": FORMAT,
+        "design": design,
+        "vertices_m": mesh["vertices"].tolist(),
+        "facets": mesh["facets"].tolist(),
+        "facet_panel": mesh["facet_panel"].tolist(),
+        "panel_thickness_m": panel_thickness.tolist(),
+        "supported_edges": mesh["support_pairs"].tolist(),
+        "material": {
+            "youngs_modulus_kpa": material["youngs_modulus"],
+            "poissons_ratio": material["poissons_ratio"],
+            "unit_weight_kn_m3": material["unit_weight"],
+            "strength_kpa": material["strength"],
+            "strength_tension_kpa": material["strength_tension"],
+            "criterion": material["criterion"],
+        },
+        "loads_kn_m2": {
+            "SDL": loads["superimposed_dead"],
+            "LL": loads["live"],
+            "W": loads["wind"],
+            "wind_fraction": loads["wind_fraction"],
+        },
+        "area_basis": loads["area_basis"],
+        "combinations": {**groups["strength"], **groups["deflection"]},
+        "compare": {"strength": compare["strength"], "deflection": compare["deflection"]},
+    }

@@ -1,0 +1,106 @@
+"""The shell mesh in files: arrays for the rules that follow, and a VTU to look at."""
+
+from dataclasses import fields
+from pathlib import Path
+
+import numpy as np
+
+from foldshell.shell.mesh import ShellMesh, build_mesh, edge_polyline_nodes
+from foldshell.shell.reference import lagrange_basis, lattice_points
+from foldshell.shell.supports import supported_pairs
+from foldshell.study.files import atomic_path, read_arrays, write_arrays
+
+
+def mesh_folded_sheet(
+    folded: dict[str, np.ndarray], support: str, subdivisions: int
+) -> dict[str, np.ndarray]:
+    """Return the arrays of `mesh.npz`: the mesh, the sheet it covers, and its supports.
+
+    Besides the fields of `ShellMesh` these are vertices (V, 3) m, facets (F, 3), facet_panel (F,),
+    support_pairs (K, 2) as vertices and supported_nodes (S,).
+    """
+    facets = folded["facets"]
+    facet_panel = np.arange(len(facets)) // 2
+    mesh = build_mesh(folded["vertices"], facets, facet_panel, subdivisions)
+    pairs = supported_pairs(mesh.node_pairs, folded["zigzag"], folded["strip"], support)
+    return {
+        **{field.name: np.asarray(getattr(mesh, field.name)) for field in fields(mesh)},
+        "vertices": folded["vertices"],
+        "facets": facets,
+        "facet_panel": facet_panel,
+        "support_pairs": pairs,
+        "supported_nodes": edge_polyline_nodes(mesh, pairs),
+    }
+
+
+def write_mesh(path: str | Path, arrays: dict[str, np.ndarray]) -> None:
+    """Write `mesh.npz`."""
+    write_arrays(path, arrays)
+
+
+def read_mesh(path: str | Path) -> tuple[ShellMesh, dict[str, np.ndarray]]:
+    """Return the mesh and all arrays of `mesh.npz`."""
+    arrays = read_arrays(path)
+    return mesh_from_arrays(arrays), arrays
+
+
+def mesh_from_arrays(arrays: dict[str, np.ndarray]) -> ShellMesh:
+    """Return the mesh that is part of the arrays of `mesh.npz`."""
+    values = {field.name: arrays[field.name] for field in fields(ShellMesh)}
+    scalars = {name: int(value) for name, value in values.items() if value.ndim == 0}
+    return ShellMesh(**(values | scalars))
+
+
+def result_mesh(mesh: ShellMesh, vertices: np.ndarray, facets: np.ndarray) -> ShellMesh:
+    """Return the linear mesh of result cells: as many along a facet edge as there are subdivisions.
+
+    Its elements are those of `mesh`, in the same order, with the corners of the cells as nodes.
+    """
+    return build_mesh(vertices, facets, None, mesh.subdivisions, order=mesh.cells)
+
+
+def cell_triangles(cells: ShellMesh) -> np.ndarray:
+    """Return the cells of a result mesh as triangles (E cells^2, 3), in the order of
+    `stress.cell_points`."""
+    size = cells.order
+    row = [sum(size + 1 - k for k in range(s)) for s in range(size + 2)]
+    upward = [
+        (row[s] + r, row[s] + r + 1, row[s + 1] + r) for s in range(size) for r in range(size - s)
+    ]
+    downward = [
+        (row[s] + r + 1, row[s + 1] + r + 1, row[s + 1] + r)
+        for s in range(size - 1)
+        for r in range(size - 1 - s)
+    ]
+    return cells.elements[:, np.array(upward + downward)].reshape(-1, 3)
+
+
+def interpolate_to_cells(
+    mesh: ShellMesh, cells: ShellMesh, translation: np.ndarray
+) -> np.ndarray:
+    """Return node values (N, k) of `mesh` at the nodes of the result mesh."""
+    at_corners = lagrange_basis(mesh.order, lattice_points(cells.order))[0]
+    values = np.empty((len(cells.nodes), translation.shape[1]))
+    values[cells.elements] = np.einsum("qn,enk->eqk", at_corners, translation[mesh.elements])
+    return values
+
+
+def write_mesh_vtu(path: str | Path, mesh: ShellMesh, arrays: dict[str, np.ndarray]) -> None:
+    """Write the result cells with panel, facet and supported nodes as a VTU (m)."""
+    import meshio
+
+    cells = result_mesh(mesh, arrays["vertices"], arrays["facets"])
+    per_element = cells.order**2
+    supported = np.zeros(len(cells.nodes), dtype=np.int32)
+    supported[edge_polyline_nodes(cells, arrays["support_pairs"])] = 1
+    grid = meshio.Mesh(
+        cells.nodes,
+        [("triangle", cell_triangles(cells))],
+        point_data={"supported": supported},
+        cell_data={
+            "panel": [np.repeat(mesh.panel, per_element)],
+            "facet": [np.repeat(mesh.facet, per_element)],
+        },
+    )
+    with atomic_path(path) as temporary:
+        grid.write(temporary, file_format="vtu")

@@ -1,0 +1,143 @@
+"""When the sizing loop stops, and with what verdict (Table 3 of Tsiamis et al. 2018)."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+STATIONARY_ITERATIONS = 3
+"""Iterations in a row with a small change of volume that `stop: stationary` asks for."""
+
+
+@dataclass(frozen=True)
+class StopRule:
+    """Limits of the loop: lengths in m, volumes in m3."""
+
+    least_thickness: float
+    largest_thickness: float
+    utilization_min: float
+    utilization_max: float
+    displacement_limit_span_over: float
+    volume_change_max: float
+    volume_change_max_relative: float
+    iterations_max: int
+    stop: str
+    measure: str
+
+
+@dataclass(frozen=True)
+class IterationState:
+    """What a verdict is made of. `utilization` (P,) by the chosen measure; `previous_*` are None
+    in iteration 0; `quiet` counts iterations in a row with a small change of volume."""
+
+    iteration: int
+    state: str
+    reason: str
+    thickness: np.ndarray
+    utilization: np.ndarray
+    displacement: float
+    span: float
+    volume: float
+    previous_volume: float | None
+    previous_thickness: np.ndarray | None
+    previous_quiet: int
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Verdict, its reason in words, each criterion with value, limit and whether it is met."""
+
+    verdict: str
+    reason: str
+    criteria: Mapping[str, Mapping[str, object]]
+    quiet: int
+
+
+def judge_iteration(now: IterationState, rule: StopRule) -> Verdict:
+    """Compare an analysis with Table 3 and say whether and why the loop ends."""
+    if now.state == "mechanism":
+        return Verdict("unstable", now.reason, {}, 0)
+    if now.state == "unstable":
+        return _judge_unstable(now, rule)
+    criteria = evaluate_criteria(now, rule)
+    change = criteria["volume_change_relative"]["value"]
+    small = change is not None and change < rule.volume_change_max_relative
+    quiet = now.previous_quiet + 1 if small else 0
+    open_names = [name for name, item in criteria.items() if not item["met"]]
+    settled = rule.stop == "table3" or quiet >= STATIONARY_ITERATIONS
+    if now.state == "ok" and not open_names and settled:
+        return Verdict("converged", "all criteria are met", criteria, quiet)
+    failing = _describe(now, rule, criteria, open_names)
+    if now.state == "ok" and open_names == ["utilization_min"] and _thinnest(now, rule):
+        reason = f"every panel stands at the least thickness of {1e3 * rule.least_thickness:g} mm"
+        return Verdict("at_minimum_thickness", f"{reason}; {failing}", criteria, quiet)
+    if now.state == "ok" and open_names and _unchanged(now):
+        return Verdict("not_converged", f"no panel changes any more; {failing}", criteria, quiet)
+    if now.iteration >= rule.iterations_max:
+        reason = f"{rule.iterations_max} iterations are used up; {failing or 'not stationary'}"
+        return Verdict("not_converged", reason, criteria, quiet)
+    return Verdict("continue", failing or now.reason or "not stationary yet", criteria, quiet)
+
+
+def evaluate_criteria(now: IterationState, rule: StopRule) -> dict[str, dict[str, object]]:
+    """Return {name: value, limit, met} of Table 3 and of the relative change of volume."""
+    highest = float(now.utilization.max())
+    limit = now.span / rule.displacement_limit_span_over
+    change = None if now.previous_volume is None else abs(now.volume - now.previous_volume)
+    relative = None if change is None else change / now.previous_volume
+    return {
+        "utilization_max": _below(highest, rule.utilization_max, closed=True),
+        "utilization_min": {
+            "value": highest,
+            "limit": rule.utilization_min,
+            "met": highest >= rule.utilization_min,
+        },
+        "displacement_vertical_m": _below(now.displacement, limit),
+        "volume_change_m3": _below(change, rule.volume_change_max),
+        "volume_change_relative": _below(relative, rule.volume_change_max_relative),
+    }
+
+
+def _below(value: float | None, limit: float, closed: bool = False) -> dict[str, object]:
+    met = value is not None and (value <= limit if closed else value < limit)
+    return {"value": value, "limit": limit, "met": met}
+
+
+def _judge_unstable(now: IterationState, rule: StopRule) -> Verdict:
+    if now.iteration >= rule.iterations_max:
+        reason = f"{rule.iterations_max} iterations are used up; {now.reason}"
+        return Verdict("unstable", reason, {}, 0)
+    if (now.thickness >= rule.largest_thickness).all():
+        largest = f"{1e3 * rule.largest_thickness:g} mm"
+        return Verdict("unstable", f"{now.reason} at the largest thickness of {largest}", {}, 0)
+    return Verdict("continue", now.reason, {}, 0)
+
+
+def _thinnest(now: IterationState, rule: StopRule) -> bool:
+    return bool((now.thickness <= rule.least_thickness).all())
+
+
+def _unchanged(now: IterationState) -> bool:
+    before = now.previous_thickness
+    return before is not None and np.array_equal(before, now.thickness)
+
+
+def _describe(now, rule: StopRule, criteria, open_names: list[str]) -> str:
+    """Say which criteria are open, with values and panels."""
+    words = []
+    for name in open_names:
+        item = criteria[name]
+        if name == "utilization_max":
+            above = np.flatnonzero(now.utilization > rule.utilization_max)
+            worst = above[np.argsort(-now.utilization[above], kind="stable")][:8].tolist()
+            more = f" and {len(above) - 8} more" if len(above) > 8 else ""
+            words.append(
+                f"utilization {item['value']:.3g} above {item['limit']:g} in {len(above)} of "
+                f"{len(now.utilization)} panels: {', '.join(map(str, worst))}{more}"
+            )
+        elif item["value"] is None:
+            words.append(f"{name} is not known before the second analysis")
+        else:
+            relation = "below" if name == "utilization_min" else "not below"
+            words.append(f"{name} {item['value']:.3g} {relation} {item['limit']:.3g}")
+    return "; ".join(words)

@@ -1,0 +1,176 @@
+"""One iteration of the sizing loop: analyse, judge, and gather what its files hold."""
+
+import time
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from foldshell.shell.analysis import AnalysisOptions, AnalysisResult, ShellModel, analyse_shell
+from foldshell.shell.loads import Loads
+from foldshell.shell.material import Material
+from foldshell.shell.results import (
+    Utilization,
+    area_percentile,
+    compute_utilization,
+    largest_downward,
+    panel_area,
+    panel_utilization,
+    reaction_imbalance,
+    support_reactions,
+    translations,
+)
+from foldshell.sizing.criteria import IterationState, StopRule, Verdict, judge_iteration
+
+
+@dataclass(frozen=True)
+class IterationTask:
+    """What one analysis of the loop works on; `thickness` (P,) m, `previous` as in analysis.json
+    and analysis.npz of the iteration before (empty for the first)."""
+
+    iteration: int
+    span: float
+    thickness: np.ndarray
+    previous: Mapping[str, Any]
+    previous_arrays: Mapping[str, np.ndarray]
+
+
+@dataclass(frozen=True)
+class LoadPlan:
+    """Loads, and combinations of the two groups by name."""
+
+    loads: Loads
+    strength: Mapping[str, Mapping[str, float]]
+    deflection: Mapping[str, Mapping[str, float]]
+
+    @property
+    def combinations(self) -> dict[str, Mapping[str, float]]:
+        """All combinations, strength first."""
+        return {**self.strength, **self.deflection}
+
+
+def run_iteration(
+    model: ShellModel,
+    task: IterationTask,
+    material: Material,
+    plan: LoadPlan,
+    options: AnalysisOptions,
+    rule: StopRule,
+) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
+    """Return the contents of analysis.json and analysis.npz."""
+    began = time.perf_counter()
+    thickness = task.thickness[model.mesh.panel]
+    modes = task.previous_arrays.get("buckling_modes")
+    result = analyse_shell(
+        model, thickness, material, plan.loads, plan.combinations, options, modes
+    )
+    area = panel_area(model)
+    report: dict[str, Any] = {
+        "iteration": task.iteration,
+        "state": result.state,
+        "volume_m3": float(area @ task.thickness),
+        "area_m2": float(area.sum()),
+        "buckling_factor": _factors(result),
+        "second_order_iterations": result.second_order.iterations if result.second_order else 0,
+        "second_order_residual": _largest_residual(result),
+        "dofs": model.pattern.size,
+        "mesh_subdivisions": model.mesh.subdivisions,
+        "element_order": model.mesh.order,
+    }
+    arrays: dict[str, np.ndarray] = {"thickness": task.thickness}
+    if result.buckling is not None:
+        arrays["buckling_modes"] = result.buckling.modes.astype(np.float32)
+    usable = result.state in ("ok", "not_converged")
+    utilization = _utilization(model, result, thickness, material, plan) if usable else None
+    panels = {
+        name: panel_utilization(model, utilization.cell, name) if usable else None
+        for name in ("panel_mean", "element_max")
+    }
+    verdict = _judge(task, result, report, panels[rule.measure], rule, model, plan)
+    report |= {
+        "verdict": verdict.verdict,
+        "reason": verdict.reason,
+        "criteria": verdict.criteria,
+        "quiet_iterations": verdict.quiet,
+    }
+    if usable:
+        report |= _headline(model, result, thickness, material, plan, utilization, panels)
+        report["panels_above_one"] = int((panels[rule.measure] > rule.utilization_max).sum())
+        arrays |= {f"utilization_{name}": values for name, values in panels.items()}
+    if verdict.verdict != "continue":
+        arrays |= _final_fields(model, result, plan, utilization)
+    report["seconds"] = time.perf_counter() - began
+    return report, arrays
+
+
+def _factors(result: AnalysisResult) -> dict[str, float | None]:
+    if result.buckling is None:
+        return {name: None for name in result.names}
+    values = result.buckling.factors
+    return {
+        name: float(value) if np.isfinite(value) else None
+        for name, value in zip(result.names, values, strict=True)
+    }
+
+
+def _largest_residual(result: AnalysisResult) -> float | None:
+    return float(result.second_order.residual.max()) if result.second_order else None
+
+
+def _utilization(model, result, thickness, material, plan: LoadPlan) -> Utilization:
+    columns = slice(0, len(plan.strength))
+    return compute_utilization(model, result.displacement[:, columns], thickness, material)
+
+
+def _judge(task, result, report, utilization, rule, model, plan) -> Verdict:
+    usable = utilization is not None
+    deflection = result.displacement[:, len(plan.strength) :]
+    down = largest_downward(model, deflection, list(plan.deflection))[0] if usable else np.nan
+    return judge_iteration(
+        IterationState(
+            iteration=task.iteration,
+            state=result.state,
+            reason=result.reason,
+            thickness=task.thickness,
+            utilization=utilization,
+            displacement=down,
+            span=task.span,
+            volume=report["volume_m3"],
+            previous_volume=task.previous.get("volume_m3"),
+            previous_thickness=task.previous_arrays.get("thickness"),
+            previous_quiet=task.previous.get("quiet_iterations", 0),
+        ),
+        rule,
+    )
+
+
+def _headline(model, result, thickness, material, plan, utilization, panels) -> dict[str, Any]:
+    deflection = result.displacement[:, len(plan.strength) :]
+    down, node, combination = largest_downward(model, deflection, list(plan.deflection))
+    reactions = support_reactions(model, result, thickness, material)
+    area = model.operators.geometry.area
+    mean = float(area @ utilization.cell.mean(axis=1) / area.sum())
+    return {
+        "utilization_max": float(utilization.cell.max()),
+        "utilization_p99": area_percentile(model, utilization.cell),
+        "utilization_mean": mean,
+        "utilization_panel_mean_max": float(panels["panel_mean"].max()),
+        "displacement_vertical_max_m": down,
+        "displacement_combination": combination,
+        "displacement_place_m": model.mesh.nodes[node].tolist(),
+        "reaction_sum_kn": dict(
+            zip(result.names, reactions.sum(axis=0).T.tolist(), strict=True)
+        ),
+        "reaction_imbalance": reaction_imbalance(model, result, reactions),
+    }
+
+
+def _final_fields(model, result, plan: LoadPlan, utilization) -> dict[str, np.ndarray]:
+    """Return the fields that pictures and exports of the last state need."""
+    fields = {"displacement": result.displacement}
+    if utilization is not None:
+        fields["utilization_cell"] = utilization.cell
+        fields["governing_combination"] = utilization.governing
+        fields["translations"] = translations(model, result.displacement)
+    return fields

@@ -1,0 +1,82 @@
+"""Rules that turn the utilization of panels into their next thickness."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+SIGN_CHANGES_MAX = 3
+"""Changes of direction after which the step of a panel is halved."""
+
+
+@dataclass(frozen=True)
+class SizingState:
+    """What a rule sees; arrays are (P,), thickness in m.
+
+    `step` is the relative step of each panel, `direction` its last change (-1, 0, 1), `turns` how
+    often that changed sign. `thin` tells whether thinning is allowed at all.
+    """
+
+    thickness: np.ndarray
+    utilization: np.ndarray
+    step: np.ndarray
+    direction: np.ndarray
+    turns: np.ndarray
+    thin: bool = True
+
+
+@dataclass(frozen=True)
+class SizingLimits:
+    """Bounds of thickness (m) and of utilization."""
+
+    least_thickness: float
+    largest_thickness: float
+    utilization_min: float
+    utilization_max: float
+
+
+def start_state(thickness: np.ndarray, step: float) -> SizingState:
+    """Return the state before the first change; utilization is not known yet."""
+    zero = np.zeros(len(thickness), dtype=np.int64)
+    return SizingState(
+        thickness, np.full(len(thickness), np.nan), np.full(len(thickness), step), zero, zero
+    )
+
+
+def dead_band(state: SizingState, limits: SizingLimits) -> SizingState:
+    """Grow by the step above the upper limit, shrink below the lower one, keep in between."""
+    wish = np.where(state.utilization > limits.utilization_max, 1, 0)
+    wish = np.where(state.utilization < limits.utilization_min, -1, wish)
+    return _step(state, wish, limits)
+
+
+def literal(state: SizingState, limits: SizingLimits) -> SizingState:
+    """Grow above the upper limit, else shrink: the words of the paper, kept for comparison."""
+    wish = np.where(state.utilization > limits.utilization_max, 1, -1)
+    return _step(state, wish, limits)
+
+
+RULES: dict[str, Callable[[SizingState, SizingLimits], SizingState]] = {
+    "dead_band": dead_band,
+    "literal": literal,
+}
+
+
+def thicken_all(state: SizingState, limits: SizingLimits, step: float) -> SizingState:
+    """Grow every panel by one step, as is done when a structure is unstable or too soft."""
+    thickness = np.minimum(state.thickness * (1 + step), limits.largest_thickness)
+    return replace(state, thickness=thickness)
+
+
+def _step(state: SizingState, wish: np.ndarray, limits: SizingLimits) -> SizingState:
+    """Move each panel by its own step, which is halved after repeated changes of direction."""
+    wish = wish if state.thin else np.maximum(wish, 0)
+    turned = wish * state.direction < 0
+    turns = state.turns + turned
+    halve = turned & (turns % SIGN_CHANGES_MAX == 0)
+    step = np.where(halve, state.step / 2, state.step)
+    thickness = np.clip(
+        state.thickness * (1 + wish * step), limits.least_thickness, limits.largest_thickness
+    )
+    direction = np.where(wish == 0, state.direction, wish)
+    return SizingState(thickness, state.utilization, step, direction, turns, state.thin)

@@ -1,0 +1,107 @@
+"""From one analysed iteration to the thicknesses of the next."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from typing import Any
+
+import numpy as np
+
+from foldshell.sizing.rules import RULES, SizingLimits, SizingState, start_state, thicken_all
+
+
+@dataclass(frozen=True)
+class StepRule:
+    """Settings of the step: rule name, relative step, least factor at which panels may thin."""
+
+    rule: str
+    step: float
+    thinning_buckling_factor_min: float
+    limits: SizingLimits
+
+
+@dataclass(frozen=True)
+class NextStep:
+    """Next thickness (P,) m, a note a panel, and the memory that the step after it needs."""
+
+    thickness: np.ndarray
+    note: tuple[str, ...]
+    memory: dict[str, np.ndarray]
+
+
+def propose_thickness(
+    analysis: Mapping[str, Any],
+    thickness: np.ndarray,
+    utilization: np.ndarray | None,
+    memory: Mapping[str, np.ndarray],
+    rule: StepRule,
+) -> NextStep:
+    """Apply the sizing rule, or thicken everything where the state does not allow it.
+
+    An unstable or unconverged analysis thickens from the last stable state, one step more each
+    time. While the least buckling factor or the displacement is beyond its limit nothing is
+    thinned; where displacement alone is open and no panel is overstressed, all panels grow.
+
+    Parameters
+    ----------
+    analysis : contents of analysis.json
+    thickness : (P,) m as analysed
+    utilization : (P,) by the chosen measure, None where the analysis gave none
+    memory : arrays of the step before; empty at the start
+    """
+    state = _restore(thickness, memory, rule.step)
+    if analysis["state"] != "ok":
+        return _recover(state, memory, rule, analysis)
+    factors = [value for value in analysis["buckling_factor"].values() if value is not None]
+    stiff = analysis["criteria"]["displacement_vertical_m"]["met"]
+    safe = min(factors, default=np.inf) >= rule.thinning_buckling_factor_min
+    state = replace(state, utilization=utilization, thin=bool(stiff and safe))
+    if not stiff and not (utilization > rule.limits.utilization_max).any():
+        following = thicken_all(state, rule.limits, rule.step)
+        note = "displacement above its limit"
+    else:
+        following = RULES[rule.rule](state, rule.limits)
+        note = "" if state.thin else _explain(stiff)
+    return NextStep(
+        following.thickness, _notes(following, rule.limits, note), _memory(following, thickness, 0)
+    )
+
+
+def _restore(thickness, memory: Mapping[str, np.ndarray], step: float) -> SizingState:
+    if not memory:
+        return start_state(thickness, step)
+    unknown = np.full(len(thickness), np.nan)
+    return SizingState(thickness, unknown, memory["step"], memory["direction"], memory["turns"])
+
+
+def _recover(state, memory, rule: StepRule, analysis: Mapping[str, Any]) -> NextStep:
+    failures = int(memory["failures"]) + 1 if memory else 1
+    stable = memory["stable"] if memory and memory["stable"].size else None
+    base = state.thickness if stable is None else stable
+    steps = 1 if stable is None else failures
+    following = thicken_all(
+        replace(state, thickness=base), rule.limits, (1 + rule.step) ** steps - 1
+    )
+    kept = np.empty(0) if stable is None else stable
+    note = (analysis["reason"],) * len(base)
+    return NextStep(following.thickness, note, _memory(following, kept, failures))
+
+
+def _memory(state: SizingState, stable: np.ndarray, failures: int) -> dict[str, np.ndarray]:
+    return {
+        "step": state.step,
+        "direction": state.direction,
+        "turns": state.turns,
+        "stable": stable,
+        "failures": np.asarray(failures),
+    }
+
+
+def _explain(stiff: bool) -> str:
+    return "no thinning: " + ("buckling factor" if stiff else "displacement")
+
+
+def _notes(state: SizingState, limits: SizingLimits, note: str) -> tuple[str, ...]:
+    at_least = state.thickness <= limits.least_thickness
+    at_most = state.thickness >= limits.largest_thickness
+    words = np.where(at_least, "least thickness", np.where(at_most, "largest thickness", ""))
+    return tuple("; ".join(filter(None, (word, note))) for word in words.tolist())

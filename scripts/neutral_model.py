@@ -1,0 +1,34 @@
+"""Rule neutral_model: the final state of a design as a model that any FE program can read."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from foldshell.exchange.neutral_model import make_neutral_model
+from foldshell.study.errors import user_errors
+from foldshell.study.files import read_arrays, write_json
+
+
+def main(
+    mesh_path: str | Path,
+    final_path: str | Path,
+    model_path: str | Path,
+    *,
+    design: str,
+    settings: Mapping[str, Any],
+) -> None:
+    """Write crosscheck/model.json from mesh.npz and the final thicknesses."""
+    thickness = read_arrays(final_path)["thickness"]
+    model = make_neutral_model(design, read_arrays(mesh_path), thickness, settings)
+    write_json(model_path, model)
+
+
+if "snakemake" in globals():
+    with user_errors():
+        main(
+            snakemake.input.mesh,  # noqa: F821
+            snakemake.input.final,  # noqa: F821
+            snakemake.output.model,  # noqa: F821
+            design=snakemake.wildcards.design,  # noqa: F821
+            **snakemake.params,  # noqa: F821
+        )

@@ -1,0 +1,68 @@
+"""Rule resize: the workbook of the next iteration from the analysis of this one."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from foldshell.sizing.rules import SizingLimits
+from foldshell.sizing.step import StepRule, propose_thickness
+from foldshell.study.errors import user_errors
+from foldshell.study.files import read_arrays, read_json, write_arrays
+from foldshell.workbook.edits import record_written
+from foldshell.workbook.panels import ThicknessTable, make_panel_grid, round_thickness
+from foldshell.workbook.write_thickness import write_thickness
+
+
+def main(
+    json_path: str | Path,
+    arrays_path: str | Path,
+    workbook_path: str | Path,
+    memory_path: str | Path,
+    record_path: str | Path,
+    *,
+    design: str,
+    zigzag: int,
+    strip: int,
+    settings: Mapping[str, Any],
+    settings_hash: str,
+    previous_memory: str | Path | None = None,
+) -> None:
+    """Write thickness.xlsx, memory.npz and written.json of the iteration after `json_path`."""
+    sizing = settings["sizing"]
+    limits = SizingLimits(**{name: sizing[name] for name in SizingLimits.__dataclass_fields__})
+    factor = sizing["thinning_buckling_factor_min"]
+    rule = StepRule(sizing["rule"], sizing["step"], factor, limits)
+    analysis, arrays = read_json(json_path), read_arrays(arrays_path)
+    thickness, used = arrays["thickness"], arrays.get(f"utilization_{sizing['measure']}")
+    memory = read_arrays(previous_memory) if previous_memory else {}
+    following = propose_thickness(analysis, thickness, used, memory, rule)
+    new = round_thickness(following.thickness)
+    table = ThicknessTable(
+        make_panel_grid(zigzag, strip), new, thickness, used, new / thickness - 1, following.note
+    )
+    summary = {
+        "design": design,
+        "iteration": analysis["iteration"] + 1,
+        "verdict": f"{analysis['verdict']}: {analysis['reason']}",
+        "volume_m3": analysis["volume_m3"],
+        **{f"{name}_m": sizing[name] for name in ("least_thickness", "largest_thickness")},
+        **{name: sizing[name] for name in ("utilization_min", "utilization_max")},
+        "settings_hash": settings_hash,
+    }
+    bounds = (limits.least_thickness, limits.largest_thickness)
+    write_thickness(workbook_path, table, summary, *bounds, limits.utilization_max)
+    write_arrays(memory_path, following.memory)
+    record_written(workbook_path, record_path)
+
+
+if "snakemake" in globals():
+    with user_errors():
+        main(
+            *snakemake.input.analysis,  # noqa: F821
+            snakemake.output.workbook,  # noqa: F821
+            snakemake.output.memory,  # noqa: F821
+            snakemake.output.record,  # noqa: F821
+            design=snakemake.wildcards.design,  # noqa: F821
+            previous_memory=next(iter(snakemake.input.get("memory", ())), None),  # noqa: F821
+            **snakemake.params,  # noqa: F821
+        )

@@ -1,0 +1,60 @@
+"""Rule size: gather the iterations of a design into its history and its final state."""
+
+import platform
+import shutil
+from collections.abc import Mapping, Sequence
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from foldshell.sizing.gather import gather_iterations, remove_superseded
+from foldshell.sizing.report import make_design_report
+from foldshell.study.errors import user_errors
+from foldshell.study.files import atomic_path, write_json
+from foldshell.workbook.design import write_design
+from foldshell.workbook.history import write_history, write_history_csv
+
+PACKAGES = ("numpy", "scipy", "cvxopt", "snakemake", "openpyxl", "XlsxWriter")
+
+
+def main(
+    json_paths: Sequence[str | Path],
+    csv_path: str | Path,
+    history_path: str | Path,
+    design_path: str | Path,
+    final_json_path: str | Path,
+    final_arrays_path: str | Path,
+    *,
+    design: Mapping[str, Any],
+    settings: Mapping[str, Any],
+    settings_hash: str,
+) -> None:
+    """Write history.csv, history.xlsx, design.xlsx and copies of the last analysis.
+
+    Iterations that an earlier run left behind the last one are removed; edited workbooks among
+    them are kept under sizing/superseded.
+    """
+    iterations = gather_iterations(json_paths, design, settings["sizing"])
+    versions = {"python": platform.python_version(), **{name: version(name) for name in PACKAGES}}
+    report = make_design_report(iterations, design, settings, settings_hash, versions)
+    limit = settings["sizing"]["utilization_max"]
+    write_history_csv(csv_path, iterations.history)
+    write_history(history_path, iterations.history, report.verdict, limit)
+    write_design(design_path, report)
+    with atomic_path(final_arrays_path) as temporary:
+        shutil.copyfile(iterations.last_arrays, temporary)
+    write_json(final_json_path, iterations.analyses[-1])
+    remove_superseded(Path(csv_path).parent, len(json_paths))
+
+
+if "snakemake" in globals():
+    with user_errors():
+        main(
+            snakemake.input.analyses,  # noqa: F821
+            snakemake.output.csv,  # noqa: F821
+            snakemake.output.history,  # noqa: F821
+            snakemake.output.design,  # noqa: F821
+            snakemake.output.final,  # noqa: F821
+            snakemake.output.arrays,  # noqa: F821
+            **snakemake.params,  # noqa: F821
+        )
