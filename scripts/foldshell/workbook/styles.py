@@ -85,7 +85,7 @@ _UNIT_SUFFIXES = {
     "_kn": "kN",
 }
 GOOD_VERDICTS = ("converged", "at_minimum_thickness", "pass", "yes", "ok")
-_OPEN_VERDICTS = ("continue", "")
+_OPEN_VERDICTS = ("continue", "not analysed yet", "")
 
 
 class Styles:
@@ -107,10 +107,14 @@ class Styles:
         return self._made[name]
 
     def choose_verdict(self, verdict: str) -> Format:
-        """Return green for a good ending, red for a bad one, plain while it goes on."""
-        if verdict in GOOD_VERDICTS:
+        """Return green for a good ending, red for a bad one, plain while it goes on.
+
+        What stands behind a colon is the reason and does not count.
+        """
+        ending = verdict.partition(":")[0]
+        if ending in GOOD_VERDICTS:
             return self["good"]
-        return self["plain"] if verdict in _OPEN_VERDICTS else self["bad"]
+        return self["plain"] if ending in _OPEN_VERDICTS else self["bad"]
 
 
 @contextmanager
@@ -160,8 +164,8 @@ def split_unit(key: str) -> tuple[str, str]:
 
 
 def write_value(sheet: Worksheet, row: int, column: int, value: Any, style: Format) -> None:
-    """Write a number, truth value or text; None leaves an empty cell."""
-    if value is None:
+    """Write a number, truth value or text; None, or NaN for no result, leaves an empty cell."""
+    if value is None or value != value:
         sheet.write_blank(row, column, None, style)
     elif isinstance(value, bool):
         sheet.write_string(row, column, "yes" if value else "no", style)

@@ -1,6 +1,7 @@
 """history, design and summary workbooks: content, units, charts, same bytes."""
 
 import csv
+import dataclasses
 import time
 import zipfile
 
@@ -139,6 +140,13 @@ def test_design_workbook(tmp_path, rows):
     assert "f" not in cells
 
 
+def test_panels_without_a_result_have_empty_cells(tmp_path, rows):
+    """An unstable analysis has no utilization; NaN stands for it."""
+    report = dataclasses.replace(make_report(rows), utilization=np.full(12, np.nan))
+    write_design(tmp_path / "design.xlsx", report)
+    assert openpyxl.load_workbook(tmp_path / "design.xlsx")["panels"]["E3"].value is None
+
+
 def test_summary_workbook(tmp_path):
     rows = [
         {"design": "a", "state": "converged", "volume_m3": 86.0, "crosscheck": "pass"},
@@ -172,8 +180,8 @@ def test_same_values_give_the_same_bytes(tmp_path, rows):
     assert write(second) == before
 
 
-def test_not_finite_values_leave_no_file(tmp_path, rows):
-    rows[0]["volume_m3"] = float("nan")
+def test_infinite_values_leave_no_file(tmp_path, rows):
+    rows[0]["volume_m3"] = float("inf")
     with pytest.raises(TypeError):
         write_history(tmp_path / "history.xlsx", rows, {})
     assert list(tmp_path.iterdir()) == []
