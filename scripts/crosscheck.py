@@ -1,0 +1,50 @@
+"""Rule crosscheck: analyse the neutral model independently and compare with the primary code."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from crosscheck.analysis import analyse_model, list_values
+from crosscheck.comparison import build_independent, compare
+from crosscheck.errors import CrosscheckError, report_errors
+from crosscheck.model import read_model
+from crosscheck.primary import read_primary
+from crosscheck.reading import write_json
+from crosscheck.system import SHEAR_FACTOR
+from crosscheck.workbook import write_comparison
+
+
+def main(
+    model_path: str | Path,
+    primary_path: str | Path,
+    json_path: str | Path,
+    workbook_path: str | Path,
+    *,
+    subdivisions: Sequence[int] = (2, 3),
+    tolerance: Mapping[str, float] | None = None,
+    shear_factor: float = SHEAR_FACTOR,
+) -> None:
+    """Read model.json and primary.json; write comparison.json and comparison.xlsx.
+
+    `subdivisions` are the elements along a block side of each mesh, coarse to fine; `tolerance`
+    overrides relative tolerances by quantity.
+    """
+    model = read_model(model_path)
+    primary = read_primary(primary_path, model.compared_combinations)
+    meshes = [int(m) for m in subdivisions]
+    if not meshes or any(m < 1 for m in meshes) or meshes != sorted(set(meshes)):
+        raise CrosscheckError(f"crosscheck.subdivisions: {meshes}: allowed are increasing, from 1")
+    runs = [list_values(analyse_model(model, m, shear_factor)) for m in meshes]
+    result = compare(primary, build_independent(meshes, runs), tolerance or {})
+    write_comparison(workbook_path, model.design, result)
+    write_json(json_path, {"design": model.design, **result})
+
+
+if "snakemake" in globals():
+    with report_errors():
+        main(
+            snakemake.input.model,  # noqa: F821
+            snakemake.input.primary,  # noqa: F821
+            snakemake.output.comparison,  # noqa: F821
+            snakemake.output.workbook,  # noqa: F821
+            **snakemake.params,  # noqa: F821
+        )

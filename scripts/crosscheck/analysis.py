@@ -1,0 +1,89 @@
+"""All that is compared, for one mesh of a model."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from crosscheck.errors import CrosscheckError
+from crosscheck.frontal import NotPositiveDefinite
+from crosscheck.loads import combine_cases, compute_surface_loads, distribute_loads
+from crosscheck.model import Model
+from crosscheck.stress import compute_panel_means, compute_percentile, compute_utilization
+from crosscheck.system import (
+    SHEAR_FACTOR,
+    Discretisation,
+    Response,
+    Section,
+    System,
+    build_system,
+    discretise,
+    hold_edges,
+    solve_loads,
+)
+
+
+@dataclass(frozen=True)
+class Analysis:
+    """A model on one mesh: its system, loads on facet nodes (F, R, 3, k) and first-order answer."""
+
+    model: Model
+    system: System
+    surface: np.ndarray  # (F, 3, k) kN/m2
+    forces: np.ndarray
+    response: Response
+
+
+def analyse_model(model: Model, subdivisions: int, shear_factor: float = SHEAR_FACTOR) -> Analysis:
+    """First-order answer to the compared combinations on `subdivisions` elements a block side."""
+    hold = hold_edges(model.supported_edges)
+    grid = discretise(model.vertices, model.facets, hold, subdivisions)
+    material = model.material
+    section = Section(
+        model.thickness, material.youngs_modulus, material.poissons_ratio, shear_factor
+    )
+    try:
+        system = build_system(grid, section)
+    except NotPositiveDefinite:
+        raise CrosscheckError(
+            "model: supported_edges: these let the shell move: allowed are edges that hold it"
+        ) from None
+    loads = compute_surface_loads(model, grid.axes[:, 2])
+    surface = combine_cases(loads, model.compared_combinations)
+    forces = distribute_loads(grid, surface)
+    return Analysis(model, system, surface, forces, solve_loads(system, forces))
+
+
+def measure_response(analysis: Analysis, response: Response, case: int) -> dict[str, float]:
+    """Displacement, work and utilization of one combination."""
+    model, grid = analysis.model, analysis.system.grid
+    moved = response.displacement[..., case]
+    use = compute_utilization(
+        grid, analysis.system.section, model.material, response.local[..., case]
+    )
+    means = compute_panel_means(use, grid.quadrature.area, model.facet_panel)
+    return {
+        "displacement_down_max_m": float(-moved[..., 2].min()),
+        "displacement_max_m": float(np.sqrt((moved**2).sum(axis=-1).max())),
+        "work_knm": float((moved * analysis.forces[..., case]).sum()),
+        "utilization_p99": compute_percentile(use, grid.quadrature.area),
+        "utilization_panel_mean_max": float(means.max()),
+    }
+
+
+def sum_loads(grid: Discretisation, surface: np.ndarray) -> np.ndarray:
+    """Resultant of uniform facet loads (F, 3, k): (3, k) in kN, by summing areas."""
+    area = grid.quadrature.area.reshape(len(surface), -1).sum(axis=1)
+    return np.einsum("f,fxk->xk", area, surface)
+
+
+def list_values(analysis: Analysis) -> dict[str, dict[str, object]]:
+    """First-order values of each compared combination."""
+    grid, response = analysis.system.grid, analysis.response
+    loads = sum_loads(grid, analysis.surface)
+    result = {}
+    for case, name in enumerate(analysis.model.compared_combinations):
+        result[name] = measure_response(analysis, response, case) | {
+            "reaction_sum_kn": response.reaction_sum[:, case].tolist(),
+            "load_sum_kn": loads[:, case].tolist(),
+        }
+    return result

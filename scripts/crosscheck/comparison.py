@@ -1,0 +1,155 @@
+"""Two codes side by side: limits, differences, tolerances, mesh errors."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from crosscheck.extrapolation import (
+    ORDER,
+    compute_mesh_error,
+    extrapolate,
+    measure_order,
+)
+
+KINDS: dict[str, tuple[str, str]] = {
+    "displacement_down_max_m": ("displacement", "m"),
+    "displacement_max_m": ("displacement", "m"),
+    "work_knm": ("work", "kNm"),
+    "utilization_p99": ("utilization_p99", "-"),
+    "utilization_panel_mean_max": ("utilization_panel_mean", "-"),
+    "buckling_factor": ("buckling_factor", "-"),
+}
+"""Scalar values of a combination: the tolerance each is held to, and its unit."""
+
+TOLERANCES = {
+    "displacement": 0.05,
+    "work": 0.05,
+    "utilization_p99": 0.08,
+    "utilization_panel_mean": 0.08,
+    "buckling_factor": 0.08,
+    "reaction": 1e-6,
+    "reaction_balance": 1e-6,
+}
+"""Relative. Displacement and work: what two extrapolations of about 1 % each and a fold's slow
+convergence leave; utilization and buckling factor follow derivatives and modes, which settle
+later; reactions are statics, so only rounding may differ."""
+
+
+@dataclass(frozen=True)
+class Code:
+    """One code's values: `values[combination][name]` holds a value a mesh, coarse to fine.
+
+    Second-order values stand under a combination of their own, `<combination> Th.II`.
+    """
+
+    subdivisions: Sequence[int]
+    values: Mapping[str, Mapping[str, Any]]
+    orders: Mapping[str, float]
+    default_order: float
+
+    def limit(self, combination: str, name: str) -> tuple[float, float]:
+        """The extrapolated value and the order used."""
+        values = self.values[combination][name]
+        order = self.orders.get(name, self.default_order)
+        order = measure_order(self.subdivisions, values, order)
+        return extrapolate(self.subdivisions, values, order), order
+
+
+def build_independent(
+    subdivisions: Sequence[int], runs: Sequence[Mapping[str, Any]], order: float = ORDER
+) -> Code:
+    """This code's values from one `list_values` dictionary a mesh."""
+    values = {
+        combination: {
+            name: [run[combination][name] for run in runs] for name in runs[0][combination]
+        }
+        for combination in runs[0]
+    }
+    return Code(subdivisions, values, {}, order)
+
+
+def compare(primary: Code, independent: Code, tolerances: Mapping[str, float]) -> dict[str, Any]:
+    """Quantity by quantity: both limits, relative difference, tolerance, pass; and mesh errors.
+
+    Compared is what both codes give; what only one gives is listed as `not_compared`.
+    """
+    allowed = TOLERANCES | dict(tolerances)
+    quantities: dict[str, Any] = {}
+    missing = []
+    for combination, values in independent.values.items():
+        given = primary.values.get(combination, {})
+        for name in values:
+            if name not in given:
+                missing.append(f"{combination} {name}")
+            elif name in KINDS:
+                label = f"{combination} {name}"
+                quantities[label] = _compare_scalar(
+                    primary, independent, combination, name, allowed
+                )
+        if "reaction_sum_kn" in values and "reaction_sum_kn" in given:
+            quantities |= _compare_reactions(given, values, combination, allowed)
+    return {
+        "pass": bool(quantities) and all(entry["pass"] for entry in quantities.values()),
+        "quantities": quantities,
+        "not_compared": missing,
+        "primary_subdivisions": list(primary.subdivisions),
+        "independent_subdivisions": list(independent.subdivisions),
+    }
+
+
+def _compare_scalar(
+    primary: Code, independent: Code, combination: str, name: str, allowed: Mapping[str, float]
+) -> dict[str, Any]:
+    kind, unit = KINDS[name]
+    (first, first_order), (second, second_order) = (
+        code.limit(combination, name) for code in (primary, independent)
+    )
+    entry = _judge(first, second, max(abs(first), abs(second)), allowed[kind], unit)
+    for code, label, limit, order in (
+        (primary, "primary", first, first_order),
+        (independent, "independent", second, second_order),
+    ):
+        meshes = code.values[combination][name]
+        entry[f"{label}_meshes"] = [float(value) for value in meshes]
+        entry[f"{label}_order"] = order
+        entry[f"{label}_mesh_error"] = compute_mesh_error(meshes[-1], limit)
+    return entry
+
+
+def _compare_reactions(
+    given: Mapping[str, Any], own: Mapping[str, Any], combination: str, allowed: Mapping[str, float]
+) -> dict[str, Any]:
+    """Finest mesh: each component against the other code's, and each code's own balance."""
+    first, second = (np.array(values["reaction_sum_kn"][-1], float) for values in (given, own))
+    scale = max(np.linalg.norm(first), np.linalg.norm(second))
+    entries = {
+        f"{combination} reaction_{axis}_kn": _judge(
+            first[k], second[k], scale, allowed["reaction"], "kN"
+        )
+        for k, axis in enumerate("xyz")
+    }
+    defect = [
+        np.linalg.norm(np.add(values["reaction_sum_kn"], values["load_sum_kn"]), axis=1).max()
+        / np.linalg.norm(values["load_sum_kn"], axis=1).max()
+        for values in (given, own)
+    ]
+    balance = _judge(defect[0], defect[1], 1.0, allowed["reaction_balance"], "-")
+    balance["relative_difference"] = float(max(defect))
+    balance["pass"] = bool(max(defect) <= balance["tolerance"])
+    return entries | {f"{combination} reaction_imbalance": balance}
+
+
+def _judge(
+    primary: float, independent: float, scale: float, tolerance: float, unit: str
+) -> dict[str, Any]:
+    difference = abs(primary - independent) / scale if scale > 0 else 0.0
+    return {
+        "primary": float(primary),
+        "independent": float(independent),
+        "relative_difference": float(difference),
+        "tolerance": float(tolerance),
+        "pass": bool(difference <= tolerance),
+        "unit": unit,
+    }

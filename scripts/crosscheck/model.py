@@ -1,0 +1,155 @@
+"""The neutral model file: what it must hold, and its values as arrays."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from crosscheck.reading import Place, read_json
+
+FORMAT = "foldshell-neutral-model 1"
+CASES = ("SW", "SDL", "LL", "WX", "WY")
+
+
+@dataclass(frozen=True)
+class Material:
+    """Isotropic, elastic; kPa and kN/m3."""
+
+    youngs_modulus: float
+    poissons_ratio: float
+    unit_weight: float
+    strength: float
+    strength_tension: float
+    criterion: str  # von_mises | rankine
+
+
+@dataclass(frozen=True)
+class Loads:
+    """Area loads in kN/m2, the area they act on, and the side the dead load presses on."""
+
+    dead: float
+    live: float
+    wind: float
+    wind_fraction: float
+    area_basis: str  # mesh | plan
+    dead_side: str  # downward | sheet
+
+
+@dataclass(frozen=True)
+class Model:
+    """A folded shell: flat facets, a thickness a panel, pinned edges, loads."""
+
+    design: str
+    vertices: np.ndarray  # (V, 3) m
+    facets: np.ndarray  # (F, 3) counter-clockwise from above
+    facet_panel: np.ndarray  # (F,)
+    panel_thickness: np.ndarray  # (P,) m
+    supported_edges: np.ndarray  # (S, 2) vertex pairs
+    material: Material
+    loads: Loads
+    combinations: dict[str, dict[str, float]]
+    compared: dict[str, str]  # strength and deflection: a combination each
+
+    @property
+    def thickness(self) -> np.ndarray:
+        """Thickness of each facet: (F,) in m."""
+        return self.panel_thickness[self.facet_panel]
+
+    @property
+    def compared_combinations(self) -> dict[str, dict[str, float]]:
+        """The factors of the combinations that are compared."""
+        return {name: self.combinations[name] for name in dict.fromkeys(self.compared.values())}
+
+
+def read_model(path: str | Path) -> Model:
+    """Read and check a neutral model file; raises CrosscheckError naming file, place and value."""
+    root = Place(Path(path).name, "", read_json(path))
+    root.key("format").one_of([FORMAT])
+    vertices = root.key("vertices_m").numbers(3)
+    facets = root.key("facets").indices(3, len(vertices))
+    thickness = root.key("panel_thickness_m").numbers(None, above=0.0)
+    panel = root.key("facet_panel").indices(None, len(thickness))
+    edges = root.key("supported_edges").indices(2, len(vertices))
+    _check_facets(root, vertices, facets, panel, len(thickness))
+    _check_supports(root, facets, edges)
+    combinations = _read_combinations(root.key("combinations"))
+    compared = {
+        kind: root.key("compare").key(kind).one_of(list(combinations))
+        for kind in ("strength", "deflection")
+    }
+    return Model(
+        design=root.key("design").text(),
+        vertices=vertices,
+        facets=facets,
+        facet_panel=panel,
+        panel_thickness=thickness,
+        supported_edges=edges,
+        material=_read_material(root.key("material")),
+        loads=_read_loads(root),
+        combinations=combinations,
+        compared=compared,
+    )
+
+
+def _check_facets(
+    root: Place, vertices: np.ndarray, facets: np.ndarray, panel: np.ndarray, panels: int
+) -> None:
+    if len(panel) != len(facets):
+        root.key("facet_panel").refuse(f"{len(panel)} entries", f"{len(facets)}, one a facet")
+    unused = np.setdiff1d(np.arange(panels), panel)
+    if len(unused):
+        root.key("panel_thickness_m").at(int(unused[0])).refuse(
+            f"panel {unused[0]} without facets", "a panel that some facet names in facet_panel"
+        )
+    a, b, c = (vertices[facets[:, k]] for k in range(3))
+    area = np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+    longest = np.max([np.linalg.norm(x - y, axis=1) for x, y in ((a, b), (b, c), (c, a))], axis=0)
+    flat = np.flatnonzero(area <= 1e-9 * longest**2)
+    if len(flat):
+        root.key("facets").at(int(flat[0])).refuse(facets[flat[0]].tolist(), "a true triangle")
+
+
+def _check_supports(root: Place, facets: np.ndarray, edges: np.ndarray) -> None:
+    sides = np.sort(np.stack([facets, np.roll(facets, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
+    known = {tuple(side) for side in sides.tolist()}
+    for k, edge in enumerate(np.sort(edges, axis=1).tolist()):
+        if tuple(edge) not in known:
+            root.key("supported_edges").at(k).refuse(edge, "two vertices that share a facet side")
+
+
+def _read_material(place: Place) -> Material:
+    return Material(
+        youngs_modulus=place.key("youngs_modulus_kpa").number(above=0.0),
+        poissons_ratio=place.key("poissons_ratio").number(least=0.0, below=0.5),
+        unit_weight=place.key("unit_weight_kn_m3").number(least=0.0),
+        strength=place.key("strength_kpa").number(above=0.0),
+        strength_tension=place.key("strength_tension_kpa").number(above=0.0),
+        criterion=place.key("criterion").one_of(["von_mises", "rankine"]),
+    )
+
+
+def _read_loads(root: Place) -> Loads:
+    place = root.key("loads_kn_m2")
+    side = place.key("dead_side", "downward").one_of(["downward", "sheet"])
+    return Loads(
+        dead=place.key("SDL").number(least=0.0),
+        live=place.key("LL").number(least=0.0),
+        wind=place.key("W").number(least=0.0),
+        wind_fraction=place.key("wind_fraction").number(least=0.0),
+        area_basis=root.key("area_basis").one_of(["mesh", "plan"]),
+        dead_side=side,
+    )
+
+
+def _read_combinations(place: Place) -> dict[str, dict[str, float]]:
+    result: dict[str, dict[str, Any]] = {}
+    for name in place.names():
+        factors = place.key(name)
+        for case in factors.names():
+            if case not in CASES:
+                factors.refuse(case, "one of the load cases " + ", ".join(CASES))
+        result[name] = {case: factors.key(case).number() for case in factors.names()}
+    if not result:
+        place.refuse("nothing", "at least one combination")
+    return result

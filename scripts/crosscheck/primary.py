@@ -1,0 +1,51 @@
+"""The other code's values, read from `primary.json`."""
+
+from collections.abc import Iterable
+from itertools import pairwise
+from pathlib import Path
+
+from crosscheck.comparison import KINDS, Code
+from crosscheck.extrapolation import PRIMARY_ORDER
+from crosscheck.reading import Place, read_json
+
+VECTORS = ("reaction_sum_kn", "load_sum_kn")
+
+
+def read_primary(path: str | Path, combinations: Iterable[str]) -> Code:
+    """Read and check the primary code's values of the given combinations, a value a mesh.
+
+    Raises CrosscheckError naming file, place and value. Keys that are not compared are ignored.
+    """
+    root = Place(Path(path).name, "", read_json(path))
+    subdivisions = [place.number(least=1.0) for place in root.key("subdivisions").entries()]
+    if any(fine <= coarse for coarse, fine in pairwise(subdivisions)):
+        root.key("subdivisions").refuse(subdivisions, "numbers that increase")
+    orders = root.key("orders", {})
+    values = {}
+    for name in combinations:
+        entry = root.key("combinations").key(name)
+        values[name] = _read_values(entry, len(subdivisions))
+        for vector in VECTORS:
+            entry.key(vector)
+        if "second_order" in entry.names() and entry.value["second_order"] is not None:
+            second = _read_values(entry.key("second_order"), len(subdivisions))
+            values[f"{name} Th.II"] = second
+    return Code(
+        [int(n) if n == int(n) else n for n in subdivisions],
+        values,
+        {name: orders.key(name).number(above=0.0) for name in orders.names()},
+        root.key("order", PRIMARY_ORDER).number(above=0.0),
+    )
+
+
+def _read_values(place: Place, meshes: int) -> dict[str, list]:
+    """The known quantities of one combination: a number, or a vector, a mesh."""
+    values: dict[str, list] = {}
+    for name in place.names():
+        if name not in KINDS and name not in VECTORS:
+            continue
+        entries = place.key(name).entries()
+        if len(entries) != meshes:
+            place.key(name).refuse(f"{len(entries)} values", f"{meshes}, one a mesh")
+        values[name] = [entry.row(3) if name in VECTORS else entry.number() for entry in entries]
+    return values

@@ -1,0 +1,71 @@
+"""Stresses at the Gauss points and how much of the strength they use."""
+
+import numpy as np
+
+from crosscheck.element import build_plane_elasticity
+from crosscheck.model import Material
+from crosscheck.system import Discretisation, Section
+
+
+def compute_strains(grid: Discretisation, local: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Membrane strain and curvature (xx, yy, 2xy): (F, 3, m^2, 9, 3) each, from (F, R, 5)."""
+    at = local[:, grid.elements]  # (F, 3, m^2, 9, 5)
+    slope = np.swapaxes(grid.quadrature.gradient, -1, -2)  # point, x|y, node
+    shape = (*slope.shape[:-3], 18, 9)
+    change = (slope.reshape(shape) @ at).reshape(*slope.shape[:-1], 5)  # d(u..by)/d(x|y)
+
+    def strain(u: int, v: int) -> np.ndarray:
+        du, dv = change[..., u], change[..., v]
+        return np.stack([du[..., 0], dv[..., 1], du[..., 1] + dv[..., 0]], axis=-1)
+
+    return strain(0, 1), strain(3, 4)
+
+
+def compute_membrane_forces(
+    grid: Discretisation, section: Section, local: np.ndarray
+) -> np.ndarray:
+    """N = t D eps (xx, yy, xy) at the Gauss points, tension positive: (F, 3, m^2, 9, 3) kN/m."""
+    elasticity = section.youngs_modulus * build_plane_elasticity(section.poissons_ratio)
+    thickness = section.thickness[:, None, None, None, None]
+    return compute_strains(grid, local)[0] @ elasticity * thickness
+
+
+def compute_utilization(
+    grid: Discretisation, section: Section, material: Material, local: np.ndarray
+) -> np.ndarray:
+    """Largest of top, middle and bottom surface at each Gauss point: (F, 3, m^2, 9)."""
+    membrane, curvature = compute_strains(grid, local)
+    elasticity = section.youngs_modulus * build_plane_elasticity(section.poissons_ratio)
+    middle = membrane @ elasticity
+    bending = curvature @ elasticity * (section.thickness[:, None, None, None, None] / 2)
+    use = rate_stress if material.criterion == "von_mises" else rate_principal_stress
+    return np.max([use(middle + z * bending, material) for z in (-1, 0, 1)], axis=0)
+
+
+def rate_stress(stress: np.ndarray, material: Material) -> np.ndarray:
+    """Von Mises stress over strength, for plane stress (xx, yy, xy)."""
+    x, y, xy = np.moveaxis(stress, -1, 0)
+    return np.sqrt(x * x - x * y + y * y + 3 * xy * xy) / material.strength
+
+
+def rate_principal_stress(stress: np.ndarray, material: Material) -> np.ndarray:
+    """Rankine: the larger of tension and compression, each over its own strength."""
+    x, y, xy = np.moveaxis(stress, -1, 0)
+    middle, radius = (x + y) / 2, np.hypot((x - y) / 2, xy)
+    tension = (middle + radius) / material.strength_tension
+    return np.maximum(np.maximum(tension, (radius - middle) / material.strength), 0.0)
+
+
+def compute_percentile(value: np.ndarray, area: np.ndarray, share: float = 0.99) -> float:
+    """The value that is not exceeded on `share` of the area."""
+    order = np.argsort(value, axis=None)
+    covered = np.cumsum(area.ravel()[order])
+    place = np.searchsorted(covered, share * covered[-1])
+    return float(value.ravel()[order[min(place, len(order) - 1)]])
+
+
+def compute_panel_means(value: np.ndarray, area: np.ndarray, facet_panel: np.ndarray) -> np.ndarray:
+    """Area mean over each panel of a value at the Gauss points (F, ...): (P,)."""
+    weighted = (value * area).reshape(len(facet_panel), -1).sum(axis=1)
+    total = area.reshape(len(facet_panel), -1).sum(axis=1)
+    return np.bincount(facet_panel, weighted) / np.bincount(facet_panel, total)

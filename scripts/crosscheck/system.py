@@ -1,0 +1,223 @@
+"""The shell as one system of equations: facets condensed, skeleton factored, loads solved."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.sparse import coo_matrix, csc_matrix
+
+from crosscheck.element import (
+    Quadrature,
+    compute_plane_stiffness,
+    compute_shear_stiffness,
+    integrate_elements,
+)
+from crosscheck.facet import Substructure, condense_facets, recover_facets, reduce_load
+from crosscheck.frames import build_facet_axes, build_skeleton, transform_outline
+from crosscheck.frontal import Factor, factor_sum
+from crosscheck.mesh import GRADING, Mesh, build_mesh
+
+SHEAR_FACTOR = 100.0
+"""Thin limit: shear deformation is that of a plate ten times thinner. At 1000 the corners of the
+facets converge more slowly to the same limit; 5/6 is the physical plate."""
+
+
+@dataclass(frozen=True)
+class Discretisation:
+    """What depends on geometry alone: mesh, facet axes, mapped quadrature."""
+
+    mesh: Mesh
+    axes: np.ndarray  # (F, 3, 3) rows local x, y, normal
+    elements: np.ndarray  # (3, m^2, 9) places in a facet
+    coordinates: np.ndarray  # (F, 3, m^2, 9, 2) m, local
+    quadrature: Quadrature
+    turn: np.ndarray  # (F, 12m, 5, 6) local unknowns from skeleton unknowns
+    equations: np.ndarray  # (F, 12m, 6), -1 where held
+    size: int
+
+
+@dataclass(frozen=True)
+class Section:
+    """Stiffness of each facet: thickness in m (F,), E in kPa, Poisson's ratio, shear factor."""
+
+    thickness: np.ndarray
+    youngs_modulus: float
+    poissons_ratio: float
+    shear_factor: float = SHEAR_FACTOR
+
+
+@dataclass(frozen=True)
+class System:
+    """A factored shell."""
+
+    grid: Discretisation
+    section: Section
+    membrane: Substructure
+    plate: Substructure
+    factor: Factor
+
+
+@dataclass(frozen=True)
+class Response:
+    """Displacements (F, R, 5, c) local (u, v, w, bx, by), and the sum of reactions (3, c) kN."""
+
+    local: np.ndarray
+    displacement: np.ndarray  # (F, R, 3, c) global, m
+    reaction_sum: np.ndarray
+
+
+def discretise(
+    vertices: np.ndarray, facets: np.ndarray, hold, subdivisions: int, grading: float = GRADING
+) -> Discretisation:
+    """Mesh the facets; `hold(mesh)` tells which skeleton translations (S, 3) are fixed."""
+    mesh = build_mesh(vertices, facets, subdivisions, grading)
+    axes = build_facet_axes(vertices, facets)
+    offset = mesh.nodes[mesh.facet_nodes] - vertices[facets[:, 0]][:, None]
+    elements = mesh.reference.blocks[:, mesh.reference.elements]
+    coordinates = (offset @ np.swapaxes(axes[:, :2], 1, 2))[:, elements]
+    skeleton = build_skeleton(mesh, axes)
+    equations, size = number_equations(mesh, skeleton.flat, hold(mesh))
+    return Discretisation(
+        mesh,
+        axes,
+        elements,
+        coordinates,
+        integrate_elements(coordinates),
+        transform_outline(skeleton),
+        equations,
+        size,
+    )
+
+
+def number_equations(mesh: Mesh, flat: np.ndarray, held: np.ndarray) -> tuple[np.ndarray, int]:
+    """Equation numbers (F, 12m, 6) of the outline unknowns; `held` (S, 3) are translations."""
+    free = np.ones((mesh.skeleton, 6), bool)
+    free[:, :3] = ~held
+    free[:, 5] = ~flat
+    number = np.where(free.ravel(), np.cumsum(free.ravel()) - 1, -1).reshape(free.shape)
+    return number[mesh.facet_nodes[:, : mesh.reference.outline]], int(free.sum())
+
+
+def hold_edges(supported: np.ndarray):
+    """Pins (no translation) at every mesh node on the given vertex pairs."""
+
+    def hold(mesh: Mesh) -> np.ndarray:
+        pairs = {tuple(sorted(pair)) for pair in supported.tolist()}
+        on = [tuple(edge) in pairs for edge in mesh.edges.tolist()]
+        held = np.zeros((mesh.skeleton, 3), bool)
+        held[mesh.edge_nodes[on].ravel()] = True
+        return held
+
+    return hold
+
+
+def compute_element_matrices(
+    grid: Discretisation, section: Section
+) -> tuple[np.ndarray, np.ndarray]:
+    """Membrane (F, 3, m^2, 18, 18) and plate (F, 3, m^2, 27, 27) stiffness."""
+    plane = compute_plane_stiffness(grid.quadrature, section.poissons_ratio)
+    shear = compute_shear_stiffness(grid.coordinates, grid.quadrature)
+    thickness = section.thickness[:, None, None, None, None]
+    modulus = section.youngs_modulus
+    rigidity = section.shear_factor * modulus / (2 * (1 + section.poissons_ratio))
+    plate = rigidity * thickness * shear
+    bending = modulus * thickness**3 / 12 * plane
+    block = plate.reshape(*plate.shape[:-2], 9, 3, 9, 3)
+    block[..., 1:, :, 1:] += bending.reshape(*plane.shape[:-2], 9, 2, 9, 2)
+    return modulus * thickness * plane, plate
+
+
+def build_system(
+    grid: Discretisation, section: Section, geometric: tuple[np.ndarray, np.ndarray] | None = None
+) -> System:
+    """Condense all facets and factor the skeleton; `geometric` is added to the two fields.
+
+    Raises NotPositiveDefinite for a mechanism or a buckled state.
+    """
+    matrices = compute_element_matrices(grid, section)
+    if geometric is not None:
+        matrices = tuple(a + b for a, b in zip(matrices, geometric, strict=True))
+    membrane, plate = (condense_facets(part, grid.mesh.reference) for part in matrices)
+    outline = turn_stiffness(join_fields(membrane.stiffness, plate.stiffness), grid.turn)
+    place = grid.equations.reshape(len(outline), -1)
+    centres = grid.mesh.nodes[grid.mesh.facet_nodes].mean(axis=1)
+    return System(grid, section, membrane, plate, factor_sum(outline, place, centres, grid.size))
+
+
+def join_fields(membrane: np.ndarray, plate: np.ndarray) -> np.ndarray:
+    """Facet matrices (F, n, 5, n, 5) on (u, v, w, bx, by) from the two fields."""
+    count, nodes = len(membrane), membrane.shape[1] // 2
+    total = np.zeros((count, nodes, 5, nodes, 5))
+    total[:, :, :2, :, :2] = membrane.reshape(count, nodes, 2, nodes, 2)
+    total[:, :, 2:, :, 2:] = plate.reshape(count, nodes, 3, nodes, 3)
+    return total
+
+
+def turn_stiffness(local: np.ndarray, turn: np.ndarray) -> np.ndarray:
+    """T^T K T, node block by node block: (F, n, 5, n, 5) to (F, 6n, 6n)."""
+    count, nodes = turn.shape[:2]
+    half = np.moveaxis(local.reshape(count, 5 * nodes, nodes, 5), 2, 1) @ turn
+    half = np.moveaxis(half.reshape(count, nodes, nodes, 5, 6), 2, 1)
+    half = np.moveaxis(half, 3, 2).reshape(count, nodes, 5, nodes * 6)
+    return (np.swapaxes(turn, -1, -2) @ half).reshape(count, 6 * nodes, 6 * nodes)
+
+
+def assemble_skeleton(matrices: np.ndarray, equations: np.ndarray, size: int) -> csc_matrix:
+    """The same sum as the fronts', as one sparse matrix (for checks with SuperLU)."""
+    place = equations.reshape(len(equations), -1)
+    rows = np.broadcast_to(place[:, :, None], matrices.shape)
+    columns = np.broadcast_to(place[:, None, :], matrices.shape)
+    keep = (rows >= 0) & (columns >= 0)
+    return coo_matrix((matrices[keep], (rows[keep], columns[keep])), shape=(size, size)).tocsc()
+
+
+def solve_loads(system: System, forces: np.ndarray) -> Response:
+    """Displacements under facet node forces (F, R, 3, c) in kN, global axes."""
+    grid = system.grid
+    local = np.einsum("fij,frjc->fric", grid.axes, forces, optimize=True)
+    return solve_local(system, np.concatenate([local, np.zeros_like(local[:, :, :2])], axis=2))
+
+
+def solve_local(system: System, local: np.ndarray) -> Response:
+    """Displacements under local forces (F, R, 5, c) on (u, v, w, bx, by)."""
+    grid, outline = system.grid, system.grid.mesh.reference.outline
+    count, places, _, cases = local.shape
+    membrane = reduce_load(system.membrane, local[:, :, :2].reshape(count, -1, cases))
+    plate = reduce_load(system.plate, local[:, :, 2:].reshape(count, -1, cases))
+    border = _join(membrane, plate, outline)
+    load = _gather(grid, np.swapaxes(grid.turn, -1, -2) @ border)
+    solution = np.vstack([system.factor.solve(load), np.zeros((1, cases))])
+    values = grid.turn @ solution[grid.equations]
+    full = _join(
+        recover_facets(system.membrane, membrane, values[:, :, :2].reshape(count, -1, cases)),
+        recover_facets(system.plate, plate, values[:, :, 2:].reshape(count, -1, cases)),
+        places,
+    )
+    displacement = np.einsum("fij,fric->frjc", grid.axes, full[:, :, :3], optimize=True)
+    return Response(full, displacement, _sum_reactions(system, values, border))
+
+
+def _join(membrane: np.ndarray, plate: np.ndarray, nodes: int) -> np.ndarray:
+    """The first `nodes` of (F, 2R, c) and (F, 3R, c) as (F, nodes, 5, c)."""
+    count, cases = len(membrane), membrane.shape[-1]
+    in_plane = membrane[:, : 2 * nodes].reshape(count, nodes, 2, cases)
+    return np.concatenate([in_plane, plate[:, : 3 * nodes].reshape(count, nodes, 3, cases)], axis=2)
+
+
+def _gather(grid: Discretisation, outline: np.ndarray) -> np.ndarray:
+    """Sum outline values (F, 12m, 6, c) into the equations: (size, c)."""
+    place = np.where(grid.equations >= 0, grid.equations, grid.size).ravel()
+    columns = outline.reshape(-1, outline.shape[-1]).T
+    return np.array([np.bincount(place, x, grid.size + 1)[: grid.size] for x in columns]).T
+
+
+def _sum_reactions(system: System, values: np.ndarray, border: np.ndarray) -> np.ndarray:
+    """Sum over held translations of K u - F: (3, c) in kN."""
+    count, nodes, _, cases = values.shape
+    inner = _join(
+        system.membrane.stiffness @ values[:, :, :2].reshape(count, -1, cases),
+        system.plate.stiffness @ values[:, :, 2:].reshape(count, -1, cases),
+        nodes,
+    )
+    unbalanced = np.swapaxes(system.grid.turn, -1, -2) @ (inner - border)
+    held = system.grid.equations[:, :, :3] < 0
+    return np.einsum("fnxc,fnx->xc", unbalanced[:, :, :3], held)
