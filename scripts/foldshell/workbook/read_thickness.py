@@ -15,6 +15,8 @@ SHEET = "thickness"
 UNITS = {"panel": "-", "zigzag": "-", "strip": "-", "thickness": "m"}
 _NUMBER = re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]{1,3})?")
 _HEADER_ROWS = 200
+# Days since 1900 of the years 2000 to 2099: `3/4` typed into a number cell becomes 46085.
+_DATE_SERIALS = range(36526, 73051)
 Rows = dict[int, dict[int, Cell]]
 
 
@@ -157,8 +159,12 @@ def _show(cell: Cell) -> str:
 
 def _hint(cell: Cell, number: float | None, least: float, largest: float) -> str:
     if number is not None:
-        in_mm = 1000 * least <= number <= 1000 * largest
-        return f", the value looks like mm: write {number / 1000:.12g}" if in_mm else ""
+        if 1000 * least <= number <= 1000 * largest:
+            return f", the value looks like mm: write {number / 1000:.12g}"
+        dated = cell.kind == "number" and number in _DATE_SERIALS
+        return (
+            ", the value looks like a date that the spreadsheet made of the input" if dated else ""
+        )
     text = cell.value.strip() if isinstance(cell.value, str) else ""
     if re.fullmatch(r"[0-9]+,[0-9]+", text):
         return f", write {text.replace(',', '.')} with a decimal point"
