@@ -1,5 +1,6 @@
 """Small models for the tests of the cross-check, and the six folded cases with known limits."""
 
+import copy
 import json
 from pathlib import Path
 
@@ -46,7 +47,7 @@ def describe_model(vertices, facets, supported_edges, thickness, facet_panel=Non
         },
         "loads_kn_m2": {"SDL": 0.5, "LL": 1.0, "W": 1.7, "wind_fraction": 0.5},
         "area_basis": "mesh",
-        "combinations": COMBINATIONS,
+        "combinations": copy.deepcopy(COMBINATIONS),
         "compare": {"strength": "S2", "deflection": "D2"},
     }
 

@@ -11,6 +11,9 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import LinAlgError, cholesky, solve_triangular
 
+ROUNDING = 1e-13
+"""A pivot that elimination shrinks to this part of its value is zero but for rounding."""
+
 
 class NotPositiveDefinite(ValueError):
     """The matrix has a direction without positive stiffness: a mechanism, or buckled."""
@@ -106,8 +109,11 @@ def _eliminate_front(
     """Eliminate the first `inner` equations; append the front; return what is left."""
     try:
         lower = cholesky(front[:inner, :inner], lower=True, check_finite=False)
+        lost = np.diag(lower) ** 2 <= ROUNDING * np.diag(front)[:inner]
     except LinAlgError:
-        raise NotPositiveDefinite("a direction has no positive stiffness") from None
+        lost = np.array([True])
+    if lost.any():
+        raise NotPositiveDefinite("a direction has no positive stiffness")
     coupling = solve_triangular(lower, front[:inner, inner:], lower=True, check_finite=False)
     front[inner:, inner:] -= coupling.T @ coupling
     fronts.append(Front(equations[:inner], equations[inner:], lower, coupling))

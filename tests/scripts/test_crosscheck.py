@@ -1,0 +1,176 @@
+"""The entry script of rule crosscheck, run by its path, on a small corrugated roof."""
+
+import json
+import os
+import runpy
+import subprocess
+import sys
+from pathlib import Path
+
+import openpyxl
+import pytest
+
+from crosscheck.analysis import analyse_model, list_values
+from crosscheck.errors import CrosscheckError
+from crosscheck.model import read_model
+from crosscheck_models import describe_small_fold, write_model
+
+SCRIPT = Path(__file__).parents[2] / "scripts" / "crosscheck.py"
+
+
+@pytest.fixture(scope="module")
+def main():
+    return runpy.run_path(str(SCRIPT))["main"]
+
+
+@pytest.fixture(scope="module")
+def primary_values(tmp_path_factory):
+    """Values of finer meshes stand for the other code's."""
+    return compute_primary(tmp_path_factory.mktemp("model"), describe_small_fold())
+
+
+def compute_primary(folder, data):
+    model = read_model(write_model(folder / "model.json", data))
+    runs = [list_values(analyse_model(model, m)) for m in (3, 4)]
+    combinations = {
+        c: {name: [run[c][name] for run in runs] for name in runs[0][c]} for c in runs[0]
+    }
+    return {"subdivisions": [3, 4], "order": 3.0, "combinations": combinations}
+
+
+def write_inputs(folder, primary, model=None):
+    (folder / "primary.json").write_text(json.dumps(primary))
+    return (
+        write_model(folder / "model.json", model or describe_small_fold()),
+        folder / "primary.json",
+        folder / "comparison.json",
+        folder / "comparison.xlsx",
+    )
+
+
+def test_agreeing_codes_pass(main, tmp_path, primary_values):
+    paths = write_inputs(tmp_path, primary_values)
+    main(*paths, subdivisions=[1, 2], tolerance={"work": 0.03})
+    result = json.loads(paths[2].read_text())
+    assert result["pass"], result
+    assert result["design"] == "test"
+    work = result["quantities"]["D2 work_knm"]
+    assert work["tolerance"] == 0.03
+    assert len(work["independent_meshes"]) == 2
+    sheet = openpyxl.load_workbook(paths[3])["comparison"]
+    assert "passed" in sheet["A1"].value
+    assert sorted(p.name for p in tmp_path.iterdir()) == [
+        "comparison.json",
+        "comparison.xlsx",
+        "model.json",
+        "primary.json",
+    ]
+
+
+def slip_load_factor(model):
+    model["combinations"]["S2"]["LL"] = 1.4
+
+
+def slip_unit(model):
+    model["material"]["youngs_modulus_kpa"] = 31e3
+
+
+def slip_support(model):
+    model["supported_edges"] = model["supported_edges"][1:]
+
+
+def slip_thickness(model):
+    model["panel_thickness_m"] = [1.1 * t for t in model["panel_thickness_m"]]
+
+
+def slip_one_thickness(model):
+    model["panel_thickness_m"][3] *= 1.5
+
+
+def slip_wind(model):
+    model["loads_kn_m2"]["wind_fraction"] = 1.0
+
+
+def slip_wind_axis(model):
+    for factors in model["combinations"].values():
+        factors["WY"] = factors.pop("WX")
+
+
+def slip_unit_weight(model):
+    model["material"]["unit_weight_kn_m3"] = 24.0
+
+
+def slip_strength(model):
+    model["material"]["strength_kpa"] = 25000.0
+
+
+SLIPS = [value for name, value in globals().copy().items() if name.startswith("slip_")]
+
+
+@pytest.mark.parametrize("slip", SLIPS, ids=lambda slip: slip.__name__)
+def test_a_planted_slip_is_caught(main, tmp_path, primary_values, slip):
+    """One code alone sees the slip, this one or the other: the comparison must fail."""
+    wrong = describe_small_fold()
+    slip(wrong)
+    paths = write_inputs(tmp_path, primary_values, wrong)
+    main(*paths, subdivisions=[1, 2])
+    assert not json.loads(paths[2].read_text())["pass"]
+    paths = write_inputs(tmp_path, compute_primary(tmp_path, wrong))
+    main(*paths, subdivisions=[1, 2])
+    assert not json.loads(paths[2].read_text())["pass"]
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        (lambda model, primary: model.pop("facets"), ["model.json", "facets", "missing"]),
+        (lambda model, primary: primary.pop("subdivisions"), ["primary.json", "subdivisions"]),
+        (
+            lambda model, primary: model["panel_thickness_m"].__setitem__(2, -0.06),
+            ["model.json", "panel_thickness_m[2]", "-0.06", "above 0"],
+        ),
+    ],
+)
+def test_bad_input_is_one_sentence_and_writes_nothing(
+    main, tmp_path, primary_values, change, words
+):
+    model, primary = describe_small_fold(), json.loads(json.dumps(primary_values))
+    change(model, primary)
+    paths = write_inputs(tmp_path, primary, model)
+    with pytest.raises(CrosscheckError) as caught:
+        main(*paths)
+    assert all(word in str(caught.value) for word in words)
+    assert not paths[2].exists() and not paths[3].exists()
+
+
+@pytest.mark.parametrize("meshes", [[], [0, 2], [3, 2], [2, 2]])
+def test_subdivisions_must_increase(main, tmp_path, primary_values, meshes):
+    with pytest.raises(CrosscheckError, match="subdivisions"):
+        main(*write_inputs(tmp_path, primary_values), subdivisions=meshes)
+
+
+def test_run_as_a_script_it_finds_the_package_of_its_own_name(tmp_path, primary_values):
+    """As Snakemake does it: a `snakemake` object in the globals, its folder on the path."""
+    paths = [str(path) for path in write_inputs(tmp_path, primary_values)]
+    code = f"""
+import runpy, sys, types
+sys.path.insert(0, {str(SCRIPT.parent)!r})
+files = types.SimpleNamespace
+job = files(input=files(model={paths[0]!r}, primary={paths[1]!r}),
+            output=files(comparison={paths[2]!r}, workbook={paths[3]!r}),
+            params={{"subdivisions": [1, 2]}})
+runpy.run_path({str(SCRIPT)!r}, init_globals={{"snakemake": job}}, run_name="__main__")
+"""
+    environment = {**os.environ, "PYTHONPATH": ""}
+    good = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, env=environment, check=False
+    )
+    assert good.returncode == 0, good.stderr
+    assert json.loads(Path(paths[2]).read_text())["pass"]
+    Path(paths[0]).write_text("{}")
+    bad = subprocess.run(
+        [sys.executable, "-c", code], capture_output=True, text=True, env=environment, check=False
+    )
+    assert bad.returncode == 1
+    assert bad.stderr.startswith("error: model.json: format")
+    assert "Traceback" not in bad.stderr

@@ -1,0 +1,108 @@
+"""The comparison passes what agrees, fails what does not, and shows both in the workbook."""
+
+import copy
+
+import openpyxl
+import pytest
+
+from crosscheck.comparison import TOLERANCES, Code, build_independent, compare
+from crosscheck.workbook import write_comparison
+
+RUN = {
+    "S2": {
+        "displacement_down_max_m": 0.1,
+        "work_knm": 20.0,
+        "utilization_p99": 0.7,
+        "reaction_sum_kn": [-3.0, 0.0, 4.0],
+        "load_sum_kn": [3.0, 0.0, -4.0],
+    }
+}
+
+
+def build_codes(**changes):
+    """An independent code at 2 and 3, and a primary at 4 and 8 that agrees but for `changes`."""
+    independent = build_independent([2, 3], [RUN, RUN])
+    values = copy.deepcopy(independent.values)
+    for name, value in changes.items():
+        values["S2"][name] = value
+    return Code([4, 8], values, {}, 2.0), independent
+
+
+def test_equal_values_pass_and_the_contract_keys_are_there():
+    result = compare(*build_codes(), {})
+    assert result["pass"]
+    assert result["not_compared"] == []
+    for entry in result["quantities"].values():
+        assert {"primary", "independent", "relative_difference", "tolerance", "pass"} <= set(entry)
+    assert "S2 reaction_z_kn" in result["quantities"]
+    assert "S2 reaction_imbalance" in result["quantities"]
+
+
+def test_limits_are_compared_and_mesh_errors_shown():
+    """Primary 0.07 at 4 and 0.0925 at 8 is 0.1 at second order; alone it would be 7.5 % off."""
+    result = compare(*build_codes(displacement_down_max_m=[0.07, 0.0925]), {})
+    entry = result["quantities"]["S2 displacement_down_max_m"]
+    assert entry["primary"] == pytest.approx(0.1)
+    assert entry["primary_mesh_error"] == pytest.approx(0.075)
+    assert entry["pass"]
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "failed"),
+    [
+        ("displacement_down_max_m", [0.106, 0.106], "S2 displacement_down_max_m"),
+        ("work_knm", [18.9, 18.9], "S2 work_knm"),
+        ("utilization_p99", [0.77, 0.77], "S2 utilization_p99"),
+        ("reaction_sum_kn", [[-3.0, 0, 4.0], [-3.0, 0, 4.0001]], "S2 reaction_z_kn"),
+        ("load_sum_kn", [[3.0, 0, -4.0001]] * 2, "S2 reaction_imbalance"),
+    ],
+)
+def test_a_difference_beyond_its_tolerance_fails(name, value, failed):
+    result = compare(*build_codes(**{name: value}), {})
+    assert not result["pass"]
+    assert not result["quantities"][failed]["pass"]
+
+
+def test_tolerances_can_be_set_and_have_defaults():
+    codes = build_codes(work_knm=[21.5, 21.5])
+    assert not compare(*codes, {})["pass"]
+    assert compare(*codes, {"work": 0.1})["pass"]
+    assert compare(*codes, {"work": 0.1})["quantities"]["S2 work_knm"]["tolerance"] == 0.1
+    assert TOLERANCES["work"] == 0.05
+
+
+def test_what_only_one_code_gives_is_listed_and_nothing_compared_is_no_pass():
+    primary, independent = build_codes()
+    less = Code([4, 8], {"S2": {"work_knm": [20.0, 20.0]}}, {}, 2.0)
+    assert "S2 utilization_p99" in compare(less, independent, {})["not_compared"]
+    assert not compare(Code([4, 8], {}, {}, 2.0), independent, {})["pass"]
+    assert primary.limit("S2", "work_knm") == (20.0, 2.0)
+
+
+def test_the_workbook_shows_every_quantity_and_marks_failures(tmp_path):
+    result = compare(*build_codes(work_knm=[10.0, 10.0]), {})
+    path = tmp_path / "comparison.xlsx"
+    write_comparison(path, "arch_x", result)
+    book = openpyxl.load_workbook(path)
+    assert book.sheetnames == ["comparison", "meshes"]
+    sheet = book["comparison"]
+    assert sheet["A1"].value == "arch_x: cross-check failed"
+    assert sheet.freeze_panes == "B4"
+    rows = {row[0].value: row for row in sheet.iter_rows(min_row=4)}
+    assert set(rows) == set(result["quantities"])
+    row = rows["S2 work_knm"]
+    assert [cell.value for cell in row[2:]] == [10.0, 20.0, pytest.approx(50.0), 5.0, "failed"]
+    assert row[0].fill.bgColor.rgb == row[0].fill.fgColor.rgb == "FFFFC7CE" or (
+        row[0].fill.fgColor.rgb == "FFFFC7CE"
+    )
+    assert rows["S2 utilization_p99"][0].fill.fill_type is None
+    meshes = list(book["meshes"].iter_rows(min_row=3, values_only=True))
+    assert len(meshes) == 3 * 4
+    assert meshes[0][:5] == ("S2 displacement_down_max_m", "m", "primary", 4, 0.1)
+
+
+def test_the_same_comparison_gives_the_same_bytes(tmp_path):
+    result = compare(*build_codes(), {})
+    for name in ("a.xlsx", "b.xlsx"):
+        write_comparison(tmp_path / name, "x", result)
+    assert (tmp_path / "a.xlsx").read_bytes() == (tmp_path / "b.xlsx").read_bytes()
