@@ -15,7 +15,9 @@ from xml.parsers import expat
 from foldshell.study.errors import InputError
 from foldshell.workbook.package import Package
 
-MOST_ROWS, MOST_COLUMNS, MOST_CELLS = 20_000, 64, 200_000
+MOST_ROWS, MOST_COLUMNS = 20_000, 64
+_CELLS_A_ROW, _BYTES_A_ROW = 20, 1000
+_SPARE_ROWS = 200
 _REFERENCE = re.compile(r"([A-Z]{1,3})([1-9][0-9]{0,6})")
 _BUILT_IN_DATES = {*range(14, 23), *range(27, 37), *range(45, 48), *range(50, 59)}
 _BUILT_IN_PERCENT = {9, 10}
@@ -47,15 +49,19 @@ def name_column(column: int) -> str:
     return name
 
 
-def read_cells(package: Package, sheet: str, part: str) -> dict[int, dict[int, Cell]]:
+def read_cells(package: Package, sheet: str, part: str, rows: int) -> dict[int, dict[int, Cell]]:
     """Return the filled cells of a worksheet as {row: {column: cell}}, both counted from 1.
 
-    Raises `InputError` for damaged XML, a cell far outside of any table, or one that stands twice.
+    `rows` is the number of rows that the table should have: it bounds what is read. Raises
+    `InputError` for damaged XML, a cell far outside of any table, or one that stands twice.
     """
     place = f"{package.path}: sheet {sheet}"
-    stream = _SheetStream(place, _read_number_kinds(package), _read_shared_strings(package))
+    bound = rows + _SPARE_ROWS
+    text = package.read_part(part, _BYTES_A_ROW * bound)
+    kinds, strings = _read_number_kinds(package), _read_shared_strings(package)
+    stream = _SheetStream(place, kinds, strings, _CELLS_A_ROW * bound)
     try:
-        stream.parse(package.read_part(part))
+        stream.parse(text)
     except expat.ExpatError as error:
         raise InputError(f"{place}: damaged XML ({error})") from None
     return stream.rows
@@ -64,9 +70,9 @@ def read_cells(package: Package, sheet: str, part: str) -> dict[int, dict[int, C
 class _SheetStream:
     """Collects cells from the events of an XML parser."""
 
-    def __init__(self, place: str, kinds: list[str], strings: list[str]) -> None:
+    def __init__(self, place: str, kinds: list[str], strings: list[str], most: int) -> None:
         self.rows: dict[int, dict[int, Cell]] = {}
-        self._place, self._kinds, self._strings = place, kinds, strings
+        self._place, self._kinds, self._strings, self._most = place, kinds, strings, most
         self._row = self._column = self._count = 0
         self._attributes: dict[str, str] = {}
         self._text: list[str] | None = None
@@ -97,8 +103,8 @@ class _SheetStream:
 
     def _locate(self, reference: str | None) -> None:
         self._count += 1
-        if self._count > MOST_CELLS:
-            raise InputError(f"{self._place}: more than {MOST_CELLS} cells: a table is allowed")
+        if self._count > self._most:
+            raise InputError(f"{self._place}: more than {self._most} cells: a table is allowed")
         if reference is None:
             self._column += 1
             return

@@ -32,7 +32,7 @@ def read_thickness(path: str | Path, grid: PanelGrid, least: float, largest: flo
     if SHEET not in sheets:
         hint = hint_nearest(SHEET, sheets)
         raise InputError(f"{path}: sheet {SHEET!r} is missing{hint}")
-    rows = read_cells(package, SHEET, sheets[SHEET])
+    rows = read_cells(package, SHEET, sheets[SHEET], grid.panel.size)
     place = f"{path}: sheet {SHEET}"
     header_row, columns = _find_header(rows, place)
     _check_units(rows, header_row, columns, place)
