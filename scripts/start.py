@@ -3,6 +3,7 @@
 from pathlib import Path
 
 import numpy as np
+
 from foldshell.study.errors import user_errors
 from foldshell.workbook.edits import record_written
 from foldshell.workbook.panels import ThicknessTable, make_panel_grid

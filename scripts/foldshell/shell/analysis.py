@@ -5,7 +5,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foldshell.shell.assembly import LowerPattern, assemble_stiffness, find_pattern
+from foldshell.shell.assembly import (
+    LowerPattern,
+    assemble_stiffness,
+    find_pattern,
+    translation_dofs,
+)
 from foldshell.shell.buckling import BucklingResult, find_buckling_factors
 from foldshell.shell.geometric import apply_geometric, assemble_geometric, geometric_operator
 from foldshell.shell.linear_solver import Factor, NotPositiveDefiniteError, factorise
@@ -66,23 +71,36 @@ class AnalysisResult:
 
 
 def build_model(
-    mesh: ShellMesh, supported_nodes: np.ndarray, poissons_ratio: float
+    mesh: ShellMesh,
+    supported_nodes: np.ndarray,
+    poissons_ratio: float,
+    fixed: np.ndarray | None = None,
 ) -> ShellModel:
     """Build what depends on the geometry only.
+
+    Parameters
+    ----------
+    supported_nodes : nodes held in all three directions
+    fixed : further freedoms that are held (`translation_dofs`, `rotation_dofs`)
 
     Raises
     ------
     ValueError
-        if fewer than three nodes, or only nodes on one line, are supported.
+        if nothing but nodes on one line is held.
     """
-    supported = np.asarray(supported_nodes, dtype=int)
-    spread = np.linalg.svd(
-        mesh.nodes[supported] - mesh.nodes[supported].mean(axis=0), compute_uv=False
-    )
-    if len(supported) < 3 or spread[1] < 1e-9 * spread[0]:
+    supported = np.asarray(supported_nodes, dtype=np.int64)
+    held = translation_dofs(supported)
+    if fixed is not None:
+        held = np.union1d(held, fixed)
+    elif len(supported) < 3 or _on_one_line(mesh.nodes[supported]):
         raise ValueError("the supports lie on one line and leave a rotation about it free")
     operators = build_operators(mesh, poissons_ratio)
-    return ShellModel(mesh, operators, find_pattern(operators, supported), supported)
+    return ShellModel(mesh, operators, find_pattern(operators, held), supported)
+
+
+def _on_one_line(points: np.ndarray) -> bool:
+    spread = np.linalg.svd(points - points.mean(axis=0), compute_uv=False)
+    return bool(spread[1] < 1e-9 * spread[0])
 
 
 def analyse_shell(
@@ -133,9 +151,7 @@ def analyse_shell(
     state = "ok" if second.converged and buckling.converged else "not_converged"
     if second.converged and not buckling.converged:
         reason = f"buckling factors still change by {buckling.change.max():.1e}"
-    return AnalysisResult(
-        state, reason, names, displacement, linear, total, buckling, second
-    )
+    return AnalysisResult(state, reason, names, displacement, linear, total, buckling, second)
 
 
 class _Solution:
@@ -156,9 +172,7 @@ class _Solution:
         return displacement
 
     def forces(self, displacement: np.ndarray) -> np.ndarray:
-        return membrane_forces(
-            self._model.operators, displacement, self._thickness, self._modulus
-        )
+        return membrane_forces(self._model.operators, displacement, self._thickness, self._modulus)
 
     def buckling(self, linear_cases, factors, start) -> BucklingResult:
         matrices = assemble_geometric(self._geometric, self.forces(linear_cases))
@@ -202,6 +216,4 @@ def _mechanism(model, names, loads, error: NotPositiveDefiniteError) -> Analysis
     nodes = len(model.mesh.nodes)
     node = dof // 3 if dof < 3 * nodes else None
     nothing = np.full(loads.shape, np.nan)
-    return AnalysisResult(
-        "mechanism", str(error), names, nothing, nothing, loads, place=node
-    )
+    return AnalysisResult("mechanism", str(error), names, nothing, nothing, loads, place=node)

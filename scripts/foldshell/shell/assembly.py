@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from foldshell.shell.mesh import ShellMesh
 from foldshell.shell.stiffness import ShellOperators
 
 
@@ -31,11 +32,22 @@ class LowerPattern:
         return len(self.indptr) - 1
 
 
-def find_pattern(operators: ShellOperators, supported_nodes: np.ndarray) -> LowerPattern:
-    """Find where each packed element entry goes once supported displacements are left out."""
+def translation_dofs(nodes: np.ndarray, directions: tuple[int, ...] = (0, 1, 2)) -> np.ndarray:
+    """Return the numbers of displacements along x (0), y (1), z (2) at nodes."""
+    return (3 * np.asarray(nodes, dtype=np.int64)[:, None] + np.array(directions)).ravel()
+
+
+def rotation_dofs(mesh: ShellMesh, edges: np.ndarray) -> np.ndarray:
+    """Return the numbers of all rotation coefficients of element edges."""
+    start = 3 * len(mesh.nodes) + mesh.order * np.asarray(edges, dtype=np.int64)
+    return (start[:, None] + np.arange(mesh.order)).ravel()
+
+
+def find_pattern(operators: ShellOperators, fixed: np.ndarray) -> LowerPattern:
+    """Find where each packed element entry goes once the `fixed` freedoms are left out."""
     mesh = operators.mesh
     free = np.ones(mesh.dof_count, dtype=bool)
-    free[(3 * np.asarray(supported_nodes, int)[:, None] + np.arange(3)).ravel()] = False
+    free[np.asarray(fixed, dtype=np.int64)] = False
     number = np.where(free, np.cumsum(free) - 1, -1)
     size = int(free.sum())
     local = number[operators.dofs]

@@ -52,9 +52,7 @@ def element_geometry(mesh: ShellMesh) -> ElementGeometry:
     edge = local[:, EDGES[:, 1]] - local[:, EDGES[:, 0]]
     edge_length = np.linalg.norm(edge, axis=2)
     edge_normal = np.stack([edge[..., 1], -edge[..., 0]], axis=2) / edge_length[..., None]
-    return ElementGeometry(
-        frame, twice_area / 2, np.linalg.inv(jacobian), edge_length, edge_normal
-    )
+    return ElementGeometry(frame, twice_area / 2, np.linalg.inv(jacobian), edge_length, edge_normal)
 
 
 def membrane_strain_operator(mesh: ShellMesh, geometry: ElementGeometry) -> np.ndarray:
@@ -98,9 +96,7 @@ def _edge_normal_slopes(geometry: ElementGeometry) -> np.ndarray:
     return np.einsum("efx,ekx->efk", geometry.edge_normal, geometry.inverse)
 
 
-def curvature_operator(
-    mesh: ShellMesh, geometry: ElementGeometry
-) -> tuple[np.ndarray, np.ndarray]:
+def curvature_operator(mesh: ShellMesh, geometry: ElementGeometry) -> tuple[np.ndarray, np.ndarray]:
     """Return the discrete curvature: (E, 3, m, n) of deflection w, (E, 3, m, 3p) of rotations.
 
     kappa_h solves int tau : kappa_h = int tau : grad grad w - oint tau_nn (dw/dn + s phi) for

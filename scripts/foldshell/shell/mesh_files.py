@@ -75,9 +75,7 @@ def cell_triangles(cells: ShellMesh) -> np.ndarray:
     return cells.elements[:, np.array(upward + downward)].reshape(-1, 3)
 
 
-def interpolate_to_cells(
-    mesh: ShellMesh, cells: ShellMesh, translation: np.ndarray
-) -> np.ndarray:
+def interpolate_to_cells(mesh: ShellMesh, cells: ShellMesh, translation: np.ndarray) -> np.ndarray:
     """Return node values (N, k) of `mesh` at the nodes of the result mesh."""
     at_corners = lagrange_basis(mesh.order, lattice_points(cells.order))[0]
     values = np.empty((len(cells.nodes), translation.shape[1]))

@@ -109,7 +109,7 @@ def _analyse(folded, support, panel_thickness, count, material, loads, combinati
             "work_knm": float(work[column]),
             "utilization_p99": area_percentile(model, used[column]),
             "utilization_panel_mean_max": float(
-                panel_utilization(model, used[column], "panel_mean").max()
+                panel_utilization(model, used[column].mean(axis=2), "panel_mean").max()
             ),
             "reaction_sum_kn": reactions[:, column].tolist(),
             "load_sum_kn": load[:, column].tolist(),

@@ -78,9 +78,7 @@ def reference_triangle(order: int) -> ReferenceTriangle:
 
 def lattice_indices(order: int) -> np.ndarray:
     """Return the barycentric indices (n, 3) of the lattice nodes, each row summing to `order`."""
-    return np.array(
-        [(order - r - s, r, s) for s in range(order + 1) for r in range(order + 1 - s)]
-    )
+    return np.array([(order - r - s, r, s) for s in range(order + 1) for r in range(order + 1 - s)])
 
 
 def lattice_points(order: int) -> np.ndarray:

@@ -9,8 +9,9 @@ from foldshell.shell.analysis import AnalysisResult, ShellModel
 from foldshell.shell.geometric import apply_geometric, geometric_operator
 from foldshell.shell.material import CRITERIA, Material
 from foldshell.shell.stress import (
-    cell_values,
+    evaluate,
     internal_forces,
+    sample_points,
     stress_resultants,
     surface_stresses,
 )
@@ -18,14 +19,16 @@ from foldshell.shell.stress import (
 
 @dataclass(frozen=True)
 class Utilization:
-    """Utilization of the result cells (E, cells^2), per combination and their maximum.
+    """Utilization, the largest over top, middle and bottom surface at each point.
 
-    `cell` (E, cells^2) is the largest over surfaces and combinations, `combination` (c, E,
-    cells^2) over surfaces only; `governing` (E, cells^2) numbers the combination.
+    `point` (E, cells^2, s^2) is the largest over combinations at sample points, `combination`
+    (c, E, cells^2, s^2) that of each; `cell` (E, cells^2) the mean of `point` over a result cell;
+    `governing` (E, cells^2) the combination with the largest mean there.
     """
 
-    cell: np.ndarray
+    point: np.ndarray
     combination: np.ndarray
+    cell: np.ndarray
     governing: np.ndarray
 
 
@@ -35,22 +38,28 @@ def compute_utilization(
     thickness: np.ndarray,
     material: Material,
 ) -> Utilization:
-    """Evaluate the strength criterion at the top, middle and bottom of every cell.
+    """Evaluate the strength criterion at the sample points of every result cell.
 
     Parameters
     ----------
     displacement : (dofs, c) m and rad, of the strength combinations
     thickness : (E,) m
     """
-    resultants = stress_resultants(
-        model.operators, displacement, thickness, material.youngs_modulus
-    )
-    force = cell_values(model.operators, resultants.force)
-    moment = cell_values(model.operators, resultants.moment)
-    stress = surface_stresses(force, moment, thickness)
-    value = CRITERIA[material.criterion](stress, material).max(axis=0)
-    combination = np.moveaxis(value, -1, 0)
-    return Utilization(combination.max(axis=0), combination, combination.argmax(axis=0))
+    operators = model.operators
+    resultants = stress_resultants(operators, displacement, thickness, material.youngs_modulus)
+    points = sample_points(model.mesh.cells)
+    flat = points.reshape(-1, 2)
+    criterion = CRITERIA[material.criterion]
+    combination = np.empty((displacement.shape[1], len(thickness), *points.shape[:2]))
+    for column in range(displacement.shape[1]):
+        own = slice(column, column + 1)
+        force = evaluate(operators, resultants.force[..., own], flat)
+        moment = evaluate(operators, resultants.moment[..., own], flat)
+        value = criterion(surface_stresses(force, moment, thickness), material).max(axis=0)
+        combination[column] = value[..., 0].reshape(combination.shape[1:])
+    point = combination.max(axis=0)
+    governing = combination.mean(axis=3).argmax(axis=0)
+    return Utilization(point, combination, point.mean(axis=2), governing)
 
 
 def panel_area(model: ShellModel) -> np.ndarray:
@@ -59,7 +68,7 @@ def panel_area(model: ShellModel) -> np.ndarray:
 
 
 def panel_utilization(model: ShellModel, cell: np.ndarray, measure: str) -> np.ndarray:
-    """Return one utilization a panel: `panel_mean`, the area mean of its cells, or `element_max`."""
+    """Return (P,): `panel_mean`, the area mean over the cells of a panel, or `element_max`."""
     panel = model.mesh.panel
     if measure == "element_max":
         largest = np.zeros(panel.max() + 1)
@@ -69,10 +78,13 @@ def panel_utilization(model: ShellModel, cell: np.ndarray, measure: str) -> np.n
     return np.bincount(panel, cell.mean(axis=1) * area) / panel_area(model)
 
 
-def area_percentile(model: ShellModel, cell: np.ndarray, percent: float = 99.0) -> float:
-    """Return the value that cells of the given share of the mesh area do not exceed."""
-    weight = np.repeat(model.operators.geometry.area, cell.shape[1])
-    value = cell.ravel()
+def area_percentile(model: ShellModel, point: np.ndarray, percent: float = 99.0) -> float:
+    """Return the value that a share of the mesh area does not exceed.
+
+    `point` (E, ...) holds equally weighted values of each element.
+    """
+    value = point.ravel()
+    weight = np.repeat(model.operators.geometry.area, value.size // len(point))
     order = np.argsort(value)
     share = np.cumsum(weight[order])
     return float(value[order][np.searchsorted(share, percent / 100 * share[-1])])
@@ -113,7 +125,7 @@ def support_reactions(
 
 
 def reaction_imbalance(model: ShellModel, result: AnalysisResult, reactions: np.ndarray) -> float:
-    """Return |sum of reactions + sum of loads| / |sum of loads|, the largest of all combinations."""
+    """Return |sum of reactions + loads| / |sum of loads|, the largest of all combinations."""
     load = translations(model, result.loads).sum(axis=0)
     gap = np.linalg.norm(reactions.sum(axis=0) + load, axis=0)
     scale = np.linalg.norm(load, axis=0)

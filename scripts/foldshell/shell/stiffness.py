@@ -91,9 +91,7 @@ def _to_global(operator: np.ndarray, axes: np.ndarray) -> np.ndarray:
     return np.einsum("ecmnk,ekx->ecmnx", operator, axes).reshape(count, components, m, 3 * n)
 
 
-def _slope_spring(
-    mesh: ShellMesh, geometry: ElementGeometry, elasticity: np.ndarray
-) -> np.ndarray:
+def _slope_spring(mesh: ShellMesh, geometry: ElementGeometry, elasticity: np.ndarray) -> np.ndarray:
     """Return the springs (E, 3p) for unit thickness: length times D / h on each edge."""
     spring = SLOPE_SPRING * elasticity[0, 0] / 12 * geometry.edge_length**2 / geometry.area[:, None]
     return np.repeat(spring, mesh.order, axis=1)

@@ -11,6 +11,9 @@ import numpy as np
 from foldshell.shell.reference import orthonormal_basis
 from foldshell.shell.stiffness import ShellOperators
 
+SAMPLES = 12
+"""Points along an element edge at which utilization is sampled."""
+
 
 @dataclass(frozen=True)
 class StressResultants:
@@ -88,16 +91,32 @@ def cell_points(cells: int) -> np.ndarray:
     return np.concatenate([first, second])
 
 
-def cell_values(operators: ShellOperators, coefficients: np.ndarray) -> np.ndarray:
-    """Evaluate (E, 3, m, c) at the centroids of the result cells: (E, cells^2, c, 3)."""
-    mesh = operators.mesh
-    psi = orthonormal_basis(mesh.order - 1, cell_points(mesh.cells))
+def sample_points(cells: int) -> np.ndarray:
+    """Return points (cells^2, s^2, 2) that sample every result cell evenly.
+
+    An element has `SAMPLES` points along an edge, or as many as it has cells if those are more.
+    Stresses peak at folds and fold vertices: a mean or a percentile over fewer points would
+    depend on where they lie.
+    """
+    centroids = cell_points(cells)
+    inner = cell_points(-(-SAMPLES // cells)) - 1 / 3
+    upward = np.arange(cells**2) < cells * (cells + 1) // 2
+    sign = np.where(upward, 1.0, -1.0)[:, None, None]
+    return centroids[:, None] + sign * inner / cells
+
+
+def evaluate(operators: ShellOperators, coefficients: np.ndarray, points: np.ndarray) -> np.ndarray:
+    """Evaluate (E, 3, m, c) at reference points (q, 2): (E, q, c, 3)."""
+    psi = orthonormal_basis(operators.mesh.order - 1, points)
     return np.einsum("qm,ecmk->eqkc", psi, coefficients, optimize=True)
 
 
-def surface_stresses(
-    force: np.ndarray, moment: np.ndarray, thickness: np.ndarray
-) -> np.ndarray:
+def cell_values(operators: ShellOperators, coefficients: np.ndarray) -> np.ndarray:
+    """Evaluate (E, 3, m, c) at the centroids of the result cells: (E, cells^2, c, 3)."""
+    return evaluate(operators, coefficients, cell_points(operators.mesh.cells))
+
+
+def surface_stresses(force: np.ndarray, moment: np.ndarray, thickness: np.ndarray) -> np.ndarray:
     """sigma = N/t - 12 M z / t^3 at the top, middle and bottom: (3, E, cells^2, c, 3) kPa."""
     t = thickness[:, None, None, None]
     membrane, bending = force / t, 6 * moment / t**2

@@ -153,15 +153,13 @@ def _headline(model, result, thickness, material, plan, utilization, panels) -> 
     mean = float(area @ utilization.cell.mean(axis=1) / area.sum())
     return {
         "utilization_max": float(utilization.cell.max()),
-        "utilization_p99": area_percentile(model, utilization.cell),
+        "utilization_p99": area_percentile(model, utilization.point),
         "utilization_mean": mean,
         "utilization_panel_mean_max": float(panels["panel_mean"].max()),
         "displacement_vertical_max_m": down,
         "displacement_combination": combination,
         "displacement_place_m": model.mesh.nodes[node].tolist(),
-        "reaction_sum_kn": dict(
-            zip(result.names, reactions.sum(axis=0).T.tolist(), strict=True)
-        ),
+        "reaction_sum_kn": dict(zip(result.names, reactions.sum(axis=0).T.tolist(), strict=True)),
         "reaction_imbalance": reaction_imbalance(model, result, reactions),
     }
 

@@ -1,0 +1,224 @@
+"""Geometric stiffness, buckling factors, second order and the linear solvers."""
+
+import numpy as np
+import pytest
+from foldshell.shell.analysis import AnalysisOptions, analyse_shell, build_model
+from foldshell.shell.assembly import assemble_stiffness, translation_dofs
+from foldshell.shell.buckling import find_buckling_factors
+from foldshell.shell.cholmod_block import open_block_solver
+from foldshell.shell.geometric import apply_geometric, assemble_geometric, geometric_operator
+from foldshell.shell.linear_solver import CholmodFactor, NotPositiveDefiniteError, factorise
+from foldshell.shell.loads import Loads
+from foldshell.shell.material import Material
+from foldshell.shell.mesh import build_mesh
+from foldshell.shell.second_order import solve_second_order
+from foldshell.shell.stiffness import build_operators
+from foldshell.shell.stress import membrane_forces
+from shell_cases import folded_strip, skewed_patch
+
+CONCRETE = Material("C25/30", 31e6, 0.2, 25.0, 16_700.0, 1_670.0)
+COMBINATIONS = {
+    "S2": {"SW": 1.2, "SDL": 1.2, "LL": 1.6, "WX": 0.5},
+    "D3": {"SW": 1.0, "SDL": 1.0, "LL": 1.0, "WY": 1.0},
+}
+
+
+def arch_model(subdivisions: int = 2):
+    """Return a folded barrel: four bays 2 m wide over 8 m, pinned at both springings."""
+    u, v = np.meshgrid(np.arange(9), np.arange(5), indexing="ij")
+    angle = np.pi / 3 * (u / 4 - 1)
+    radius = 6 + 0.4 * (v % 2)
+    points = np.column_stack(
+        [(radius * np.sin(angle)).ravel(), 1.0 * v.ravel(), (radius * np.cos(angle)).ravel()]
+    )
+    number = np.arange(45).reshape(9, 5)
+    a, b, c, d = number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]
+    facets = np.stack([np.stack([a, b, c], -1), np.stack([a, c, d], -1)], axis=2).reshape(-1, 3)
+    mesh = build_mesh(points, facets, np.arange(64) // 2, subdivisions)
+    ends = np.unique(np.concatenate([number[0], number[-1]]))
+    rows = np.isin(mesh.node_pairs, ends).all(axis=1)
+    rows &= np.abs(np.diff(mesh.node_pairs, axis=1)[:, 0]) == 1
+    held = np.unique(mesh.pair_nodes[rows])
+    return build_model(mesh, held, 0.2)
+
+
+def test_applied_and_assembled_geometric_stiffness_agree():
+    mesh = folded_strip(3, 4)
+    operators = build_operators(mesh, 0.2)
+    geometric = geometric_operator(operators)
+    rng = np.random.default_rng(2)
+    force = rng.standard_normal((len(mesh.elements), 3, 15, 2))
+    displacement = rng.standard_normal((mesh.dof_count, 2))
+    applied = apply_geometric(geometric, force, displacement)
+    count = 3 * len(mesh.nodes)
+    for case, matrix in enumerate(assemble_geometric(geometric, force)):
+        moved = displacement[:count, case].reshape(-1, 3)
+        assert applied[:count, case].reshape(-1, 3) == pytest.approx(matrix @ moved, abs=1e-11)
+    assert (applied[count:] == 0).all()
+
+
+@pytest.mark.parametrize("order", [2, 3, 5])
+def test_geometric_energy_of_a_uniform_force_and_a_linear_field(order):
+    """u^T K_g u = A N_ab g_a . g_b for a constant force and displacement gradient g; exact."""
+    mesh, frame = skewed_patch(4, order)
+    operators = build_operators(mesh, 0.2)
+    plane_force = np.array([[3.0, 0.7], [0.7, -2.0]])
+    axes = np.einsum("eax,bx->eab", operators.geometry.frame[:, :2], frame[:2])
+    local = np.einsum("eab,bc,edc->ead", axes, plane_force, axes)
+    force = np.zeros((len(mesh.elements), 3, order * (order + 1) // 2, 1))
+    force[:, 0, 0, 0], force[:, 1, 0, 0] = local[:, 0, 0], local[:, 1, 1]
+    force[:, 2, 0, 0] = local[:, 0, 1]
+    gradient = np.random.default_rng(0).standard_normal((3, 2))
+    displacement = np.zeros((mesh.dof_count, 1))
+    moved = mesh.nodes @ frame[:2].T @ gradient.T
+    displacement[: 3 * len(mesh.nodes), 0] = moved.ravel()
+    found = displacement[:, 0] @ apply_geometric(geometric_operator(operators), force, displacement)
+    area = operators.geometry.area.sum()
+    exact = area * np.einsum("ab,xa,xb->", plane_force, gradient, gradient)
+    assert found[0] == pytest.approx(exact, rel=1e-11)
+
+
+def dense_buckling(model, thickness, combination):
+    """Return the least positive factor from dense matrices and scipy's generalised eigenvalues."""
+    from scipy.linalg import eigh
+
+    result = analyse_shell(
+        model, thickness, CONCRETE, Loads(), combination, AnalysisOptions(second_order=False)
+    )
+    values = assemble_stiffness(model.operators, model.pattern, thickness, 31e6)
+    size = model.pattern.size
+    column = np.repeat(np.arange(size), np.diff(model.pattern.indptr))
+    dense = np.zeros((size, size))
+    dense[model.pattern.indices, column] = values
+    dense[column, model.pattern.indices] = values
+    force = membrane_forces(model.operators, result.linear, thickness, 31e6)
+    full = np.eye(model.mesh.dof_count)[:, model.pattern.free]
+    geometric = geometric_operator(model.operators)
+    stacked = np.repeat(force, full.shape[1], axis=3)
+    matrix = apply_geometric(geometric, stacked, full)[model.pattern.free]
+    return 1 / eigh(-(matrix + matrix.T) / 2, dense, eigvals_only=True)[-1]
+
+
+def test_buckling_factors_agree_with_dense_eigenvalues():
+    """Independent path: LAPACK on full matrices. Tolerance 1e-5: the square of the mode change."""
+    model = arch_model()
+    thickness = np.random.default_rng(3).uniform(0.03, 0.06, 64)[np.arange(64)]
+    result = analyse_shell(model, thickness, CONCRETE, Loads(), COMBINATIONS)
+    for column, (name, factors) in enumerate(COMBINATIONS.items()):
+        exact = dense_buckling(model, thickness, {name: factors})
+        assert result.buckling.factors[column] == pytest.approx(exact, rel=1e-5)
+
+
+def test_warm_start_gives_the_same_factors_with_fewer_solves():
+    model = arch_model()
+    thick, thin = np.full(64, 0.05), np.full(64, 0.048)
+    first = analyse_shell(model, thick, CONCRETE, Loads(), COMBINATIONS)
+    cold = analyse_shell(model, thin, CONCRETE, Loads(), COMBINATIONS)
+    warm = analyse_shell(
+        model, thin, CONCRETE, Loads(), COMBINATIONS, start_modes=first.buckling.modes
+    )
+    assert warm.buckling.factors == pytest.approx(cold.buckling.factors, rel=1e-5)
+    assert warm.buckling.solves < cold.buckling.solves
+
+
+def test_pure_tension_has_no_buckling_factor():
+    size = 5
+    result = find_buckling_factors(
+        lambda b: b, lambda v: v[None] * np.arange(1, 6)[:, None], np.array([[1.0]]), size
+    )
+    assert result.factors.tolist() == [np.inf]
+    assert result.converged
+
+
+def test_second_order_solves_its_equation():
+    """(K + K_g(N(u))) u = F is checked with matrices that the solver never formed."""
+    model = arch_model()
+    thickness = np.full(64, 0.04)
+    result = analyse_shell(model, thickness, CONCRETE, Loads(), COMBINATIONS)
+    assert result.state == "ok"
+    values = assemble_stiffness(model.operators, model.pattern, thickness, 31e6)
+    column = np.repeat(np.arange(model.pattern.size), np.diff(model.pattern.indptr))
+    dense = np.zeros((model.pattern.size, model.pattern.size))
+    dense[model.pattern.indices, column] = values
+    dense[column, model.pattern.indices] = values
+    force = membrane_forces(model.operators, result.displacement, thickness, 31e6)
+    geometric = geometric_operator(model.operators)
+    extra = apply_geometric(geometric, force, result.displacement)[model.pattern.free]
+    free = model.pattern.free
+    gap = dense @ result.displacement[free] + extra - result.loads[free]
+    assert np.abs(gap).max() < 1e-6 * np.abs(result.loads).max()
+    assert np.abs(result.displacement - result.linear).max() > 1e-3 * np.abs(result.linear).max()
+
+
+@pytest.mark.parametrize("factor", [0.5, 0.9])
+def test_anderson_reaches_the_amplification_of_one_degree_of_freedom(factor):
+    """u = 1 + a u has u = 1 / (1 - a), the amplification at load factor 1/a."""
+    result = solve_second_order(
+        np.array([[1.0]]), lambda u, columns: factor * u, tolerance=1e-12, iterations_max=200
+    )
+    assert result.converged
+    assert result.displacement[0, 0] == pytest.approx(1 / (1 - factor), rel=1e-9)
+    assert result.iterations < 10
+
+
+def test_second_order_says_when_it_does_not_converge():
+    result = solve_second_order(
+        np.array([[1.0, 1.0]]), lambda u, columns: np.cos(40 * u) * 3, iterations_max=5
+    )
+    assert not result.converged
+    assert result.iterations == 5
+
+
+def test_a_shell_that_has_buckled_is_unstable_and_says_which_combination():
+    model = arch_model()
+    result = analyse_shell(model, np.full(64, 0.002), CONCRETE, Loads(), COMBINATIONS)
+    assert result.state == "unstable"
+    assert "buckling factor" in result.reason
+    assert result.second_order is None
+
+
+def test_solvers_agree_and_refactor():
+    model = arch_model()
+    values = assemble_stiffness(model.operators, model.pattern, np.full(64, 0.05), 31e6)
+    right = np.random.default_rng(0).standard_normal((model.pattern.size, 3))
+    one = factorise(model.pattern, values, "cholmod")
+    two = factorise(model.pattern, values, "superlu")
+    scale = np.abs(one.solve(right)).max()
+    assert two.solve(right) == pytest.approx(one.solve(right), abs=1e-9 * scale)
+    for factor in (one, two):
+        before = factor.solve(right)
+        factor.refactor(2 * values)
+        assert factor.solve(right) == pytest.approx(before / 2, abs=1e-9 * scale)
+
+
+def test_block_solve_equals_the_column_solve_of_cvxopt():
+    model = arch_model()
+    values = assemble_stiffness(model.operators, model.pattern, np.full(64, 0.05), 31e6)
+    right = np.random.default_rng(0).standard_normal((model.pattern.size, 5))
+    fast = CholmodFactor(model.pattern, values)
+    assert fast._block_solve is not None, "the block solve of CHOLMOD is not in use"
+    slow = CholmodFactor(model.pattern, values)
+    slow._block_solve = None
+    exact = slow.solve(right)
+    assert fast.solve(right) == pytest.approx(exact, abs=1e-10 * np.abs(exact).max())
+
+
+def test_block_solver_refuses_what_is_no_factor():
+    assert open_block_solver(object()) is None
+
+
+@pytest.mark.parametrize("solver", ["cholmod", "superlu"])
+def test_a_mechanism_is_refused_by_both_solvers(solver):
+    mesh = folded_strip(1, 2)
+    operators = build_operators(mesh, 0.2)
+    model = build_model(mesh, np.empty(0, int), 0.2, translation_dofs([0], (0, 1, 2)))
+    values = assemble_stiffness(operators, model.pattern, np.full(4, 0.1), 31e6)
+    values -= 1e-3 * values.max() * (model.pattern.indices == 0)
+    with pytest.raises(NotPositiveDefiniteError, match="not positive definite"):
+        factorise(model.pattern, values, solver)
+
+
+def test_supports_on_one_line_are_refused():
+    mesh = folded_strip(1, 2)
+    with pytest.raises(ValueError, match="one line"):
+        build_model(mesh, mesh.pair_nodes[0], 0.2)
