@@ -5,6 +5,7 @@ from foldshell.study.imports import library_files
 from foldshell.study.stages import choose_subdivisions, settings_hash, stage_parameters
 
 BY_NAME = {design.name: design for design in DESIGNS}
+PICTURES = ["thickness", "utilization", "displacement", "planarity"]
 SCRIPTS = os.path.relpath(Path(workflow.basedir) / "scripts")
 
 
@@ -44,5 +45,6 @@ def names_of_tag(tag):
 
 def study_files(tag):
     """Return what is made of every design with a tag."""
-    files = ["design.xlsx", "crosscheck/comparison.json", "figures/done.json"]
+    files = ["design.xlsx", "design.vtu", "crosscheck/comparison.json"]
+    files += [f"figures/{name}.png" for name in PICTURES]
     return [f"{RESULTS}/{name}/{file}" for name in names_of_tag(tag) for file in files]

@@ -3,16 +3,19 @@
 
 rule draw:
     message:
-        "{wildcards.design}: pictures"
+        "{wildcards.design}: pictures and final fields"
     input:
         mesh=rules.mesh.output.mesh,
         folded=rules.fold.output.folded,
         final=rules.size.output.arrays,
+        report=rules.size.output.final,
         library=library("draw"),
     output:
-        done=f"{RESULTS}/{{design}}/figures/done.json",
+        **{name: f"{RESULTS}/{{design}}/figures/{name}.png" for name in PICTURES},
+        vtu=f"{RESULTS}/{{design}}/design.vtu",
     params:
-        settings=lambda wildcards: of_stage("figures")(wildcards)["figures"],
+        **of_design("span_m"),
+        settings=lambda wildcards: of_stage("analyse")(wildcards) | of_stage("figures")(wildcards),
     conda:
         "../envs/foldshell.yaml"
     script:

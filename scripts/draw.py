@@ -1,0 +1,54 @@
+"""Rule draw: the pictures of a design, and its final fields as design.vtu."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from foldshell.exchange.design_vtu import write_design_vtu
+from foldshell.figures.layout import save_png
+from foldshell.figures.pictures import Limits, draw_design
+from foldshell.figures.state import read_state
+from foldshell.study.errors import user_errors
+
+
+def main(
+    mesh_path: str | Path,
+    folded_path: str | Path,
+    final_path: str | Path,
+    report_path: str | Path,
+    vtu_path: str | Path,
+    pictures: Mapping[str, str | Path],
+    *,
+    design: str,
+    span_m: float,
+    settings: Mapping[str, Any],
+) -> None:
+    """Write design.vtu and the PNG files of `pictures`, by their names in `PICTURES`.
+
+    `settings` are the parameters of the stages `analyse` and `figures`; report_path is
+    final.json.
+    """
+    state = read_state(
+        design, mesh_path, folded_path, final_path, report_path, settings["combinations"]
+    )
+    material, sizing, figures = (settings[name] for name in ("material", "sizing", "figures"))
+    write_design_vtu(vtu_path, state, material["youngs_modulus"], material["poissons_ratio"])
+    limits = Limits(sizing["utilization_max"], sizing["displacement_limit_span_over"])
+    size = (figures["width_px"], figures["height_px"])
+    for name, picture in draw_design(state, span_m, limits, size, tuple(pictures)).items():
+        save_png(pictures[name], picture)
+
+
+if "snakemake" in globals():
+    with user_errors():
+        files = dict(snakemake.output.items())  # noqa: F821
+        main(
+            snakemake.input.mesh,  # noqa: F821
+            snakemake.input.folded,  # noqa: F821
+            snakemake.input.final,  # noqa: F821
+            snakemake.input.report,  # noqa: F821
+            files.pop("vtu"),
+            files,
+            design=snakemake.wildcards.design,  # noqa: F821
+            **snakemake.params,  # noqa: F821
+        )

@@ -1,0 +1,68 @@
+"""Crease lines of a sheet as polylines that follow its result mesh, bent or not."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from foldshell.pattern.angles import measure_folds
+from foldshell.pattern.grid import build_grid
+from foldshell.shell.mesh import ShellMesh
+
+FOLD_MIN = np.radians(1.0)
+"""An edge that folds less is drawn as a panel border."""
+
+
+@dataclass(frozen=True)
+class Creases:
+    """Nodes of each crease (K, n+1) in the result mesh, by kind."""
+
+    mountain: np.ndarray
+    valley: np.ndarray
+    flat: np.ndarray
+    border: np.ndarray
+
+
+def find_creases(cells: ShellMesh, folded: dict[str, np.ndarray]) -> Creases:
+    """Sort panel edges by the way they fold; neutral folds are left out.
+
+    Parameters
+    ----------
+    cells : result mesh over the facets of the folded sheet
+    folded : arrays vertices, zigzag, strip of folded.npz
+    """
+    grid = build_grid(int(folded["zigzag"].max()) + 1, int(folded["strip"].max()) + 1)
+    fold = measure_folds(folded["vertices"], grid)
+    edge = slice(0, grid.neutral.start)
+    nodes = cells.pair_nodes[_find_pairs(cells, grid.edges[edge])]
+    border = grid.assignments[edge] == "B"
+    mountain = ~border & (fold[edge] < -FOLD_MIN)
+    valley = ~border & (fold[edge] > FOLD_MIN)
+    flat = ~border & ~mountain & ~valley
+    return Creases(nodes[mountain], nodes[valley], nodes[flat], nodes[border])
+
+
+def find_polylines(cells: ShellMesh, pairs: np.ndarray) -> np.ndarray:
+    """Return the nodes (K, n+1) of the result mesh along facet edges (K, 2)."""
+    return cells.pair_nodes[_find_pairs(cells, pairs)]
+
+
+def _find_pairs(cells: ShellMesh, pairs: np.ndarray) -> np.ndarray:
+    width = int(cells.node_pairs.max()) + 1
+    known = cells.node_pairs[:, 0] * width + cells.node_pairs[:, 1]
+    low, high = pairs.min(axis=1), pairs.max(axis=1)
+    return np.searchsorted(known, low * width + high)
+
+
+def cut_dashes(polylines: np.ndarray, period: float, share: float = 0.55) -> np.ndarray:
+    """Cut polylines (K, n, 3) into dashes (D, 2, 3), a whole number of periods to each line."""
+    sides = np.linalg.norm(np.diff(polylines, axis=1), axis=2)
+    counts = np.maximum(np.round(sides.sum(axis=1) / period).astype(int), 1)
+    line = np.repeat(np.arange(len(polylines)), counts)
+    number = np.arange(len(line)) - np.repeat(np.cumsum(counts) - counts, counts)
+    gap = (1 - share) / 2
+    ends = (number[:, None] + [gap, 1 - gap]) / counts[line][:, None]
+    steps = polylines.shape[1] - 1
+    place = np.minimum((ends * steps).astype(int), steps - 1)
+    rest = (ends * steps - place)[..., None]
+    start, end = polylines[line[:, None], place], polylines[line[:, None], place + 1]
+    return (1 - rest) * start + rest * end
