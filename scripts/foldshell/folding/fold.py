@@ -2,31 +2,17 @@
 
 import time
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
-from foldshell.folding.levenberg import minimise_terms
-from foldshell.folding.problem import attracted_vertices, build_terms, place_sheet
+from foldshell.folding.problem import attracted_vertices
 from foldshell.folding.quality import Quality, measure_quality
 from foldshell.folding.settings import MODES, FoldSettings, Limits
+from foldshell.folding.shape import Shape
+from foldshell.folding.soft import fold_softly
+from foldshell.folding.true_pattern import fold_exactly, fold_rigidly
 from foldshell.pattern.sheet import Sheet
-
-
-@dataclass(frozen=True)
-class Shape:
-    """What a mode hands back: vertices and flat state (V, 3) [m], and how it ended.
-
-    `flat` is the crease pattern that was folded: given in paper and isometric mode, found in
-    exact and rigid mode. `residuals` are further measures of the mode, by name.
-    """
-
-    vertices: np.ndarray
-    flat: np.ndarray
-    iterations: int
-    converged: bool
-    reason: str
-    residuals: dict[str, float] = field(default_factory=dict)
 
 
 @dataclass(frozen=True)
@@ -92,22 +78,6 @@ def judge_shape(shape: Shape, quality: Quality, limits: Limits) -> tuple[str, st
     return ("ok" if shape.converged else "not_reached"), shape.reason
 
 
-def fold_softly(sheet: Sheet, target, settings: FoldSettings) -> Shape:
-    """Paper mode: minimise the weighted squares of stretch, hinges, attraction, plan edge."""
-    terms = build_terms(sheet, target, settings.attract, settings.weights)
-    minimum = minimise_terms(
-        terms,
-        place_sheet(sheet, target, settings.attract),
-        max_iterations=settings.max_iterations,
-        cost_tolerance=settings.tolerance,
-        step_tolerance=1e-9 * target.span,
-    )
-    return Shape(
-        minimum.vertices, sheet.flat, minimum.iterations, minimum.converged, minimum.reason,
-        {"cost": minimum.cost},
-    )  # fmt: skip
-
-
 def lay_smooth(sheet: Sheet, target, settings: FoldSettings) -> Shape:
     """Lay the panel grid on the target itself by arc length of its central sections."""
     del settings
@@ -128,4 +98,8 @@ def lay_flat(sheet: Sheet, target, settings: FoldSettings) -> Shape:
 
 Solver = Callable[[Sheet, object, FoldSettings], Shape]
 LAYOUTS: dict[str, Solver] = {"smooth": lay_smooth, "flat": lay_flat}
-SOLVERS: dict[str, Solver] = {"paper": fold_softly}
+SOLVERS: dict[str, Solver] = {
+    "paper": fold_softly,
+    "exact": fold_exactly,
+    "rigid": fold_rigidly,
+}

@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from typing import Any
 
+from foldshell.folding.exact import ExactWeights
 from foldshell.folding.problem import Weights
 from foldshell.study.errors import InputError
 
@@ -32,6 +33,7 @@ class FoldSettings:
     max_iterations: int = 60
     tolerance: float = 1e-4
     limits: Limits = field(default_factory=Limits)
+    exact: ExactWeights = field(default_factory=ExactWeights)
 
 
 def read_settings(values: Mapping[str, Any], where: str = "fold") -> FoldSettings:
@@ -41,6 +43,7 @@ def read_settings(values: Mapping[str, Any], where: str = "fold") -> FoldSetting
     """
     known = {
         "weights": lambda v: _read_numbers(Weights, v, f"{where}.weights"),
+        "exact": lambda v: _read_numbers(ExactWeights, v, f"{where}.exact"),
         "limits": lambda v: _read_numbers(Limits, v, f"{where}.limits"),
         "engine": lambda v: _read_choice(v, ENGINES, f"{where}.engine"),
         "attract": lambda v: _read_choice(v, ("lowest", "highest"), f"{where}.attract"),

@@ -1,0 +1,117 @@
+"""Drive exact and rigid modes: choose a start, solve, unfold, refold, accept or try again."""
+
+import math
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+
+from foldshell.folding.exact import Solution, solve_exactly
+from foldshell.folding.intersections import find_intersections
+from foldshell.folding.quality import count_flipped, find_convex
+from foldshell.folding.settings import FoldSettings
+from foldshell.folding.shape import Shape
+from foldshell.folding.soft import fold_softly
+from foldshell.pattern.angles import measure_folds
+from foldshell.pattern.miura import size_miura
+from foldshell.pattern.sheet import Sheet, make_miura_sheet
+from foldshell.pattern.unfold import find_overlap, follow_path, unfold_panels
+
+ACCEPTED = 1e-9  # constraint residual and closures
+OTHER_ANGLES_DEG = (70.0, 65.0, 75.0)  # starts to try when the given sector angle fails
+REFOLDED = 1e-10  # gap [m] between panels anywhere on the rigid path
+PATH_PARTS = np.linspace(0.0, 1.0, 21)
+
+
+@dataclass(frozen=True)
+class Attempt:
+    """One start and where it led; `faults` is empty when it is true origami."""
+
+    sheet: Sheet
+    solution: Solution
+    iterations: int
+    faults: tuple[str, ...]
+
+
+def fold_exactly(sheet: Sheet, target, settings: FoldSettings) -> Shape:
+    """Exact mode: attracted vertices on the target, planar panels, developable."""
+    return _fold_truly(sheet, target, settings, rigid=False)
+
+
+def fold_rigidly(sheet: Sheet, target, settings: FoldSettings) -> Shape:
+    """Rigid mode: planar, developable and flat-foldable; as near the target as that allows."""
+    return _fold_truly(sheet, target, settings, rigid=True)
+
+
+def _fold_truly(sheet: Sheet, target, settings: FoldSettings, rigid: bool) -> Shape:
+    attempts = []
+    for start in list_starts(sheet, target):
+        attempts.append(_attempt(start, target, settings, rigid))
+        if not attempts[-1].faults:
+            break
+    best = min(attempts, key=lambda a: (bool(a.faults), a.solution.residual))
+    return _finish(best, attempts, rigid)
+
+
+def list_starts(sheet: Sheet, target) -> Iterator[Sheet]:
+    """Yield the sheet itself, then Miura sheets of the same counts with other sector angles.
+
+    The pattern is unknown in these modes, so the sheet is only where the search begins.
+    """
+    yield sheet
+    if sheet.kind != "miura":
+        return
+    given = sheet.settings.get("sector_angle_deg", 0.0)
+    for angle in OTHER_ANGLES_DEG:
+        if abs(angle - given) > 2.0:
+            lengths = target.section_lengths()
+            grid = sheet.grid
+            yield make_miura_sheet(
+                size_miura(*lengths, math.radians(angle), grid.zigzags, grid.strips), 0
+            )
+
+
+def _attempt(sheet: Sheet, target, settings: FoldSettings, rigid: bool) -> Attempt:
+    soft = fold_softly(sheet, target, settings)
+    solution = solve_exactly(sheet, target, settings.attract, soft.vertices, settings.exact, rigid)
+    iterations = soft.iterations + solution.iterations
+    return Attempt(sheet, solution, iterations, tuple(find_faults(solution, sheet)))
+
+
+def find_faults(solution: Solution, sheet: Sheet) -> Iterator[str]:
+    """Say what keeps a solution from being true origami."""
+    vertices, grid = solution.vertices, sheet.grid
+    if not solution.residual <= ACCEPTED:
+        yield solution.reason
+        return
+    bent = int((~find_convex(vertices, grid.quads)).sum())
+    if bent:
+        yield f"{bent} panels not convex"
+    flipped = count_flipped(measure_folds(vertices, grid), grid)
+    if flipped:
+        yield f"{flipped} folds turned over"
+    if not (bent or flipped) and len(find_intersections(vertices, grid.facets)):
+        yield "the sheet cuts itself"
+
+
+def _finish(attempt: Attempt, attempts: list[Attempt], rigid: bool) -> Shape:
+    sheet, vertices = attempt.sheet, attempt.solution.vertices
+    residuals: dict[str, float] = {"constraint_residual": attempt.solution.residual}
+    if "sector_angle_deg" in sheet.settings:
+        residuals["start_sector_angle_deg"] = sheet.settings["sector_angle_deg"]
+    iterations = sum(a.iterations for a in attempts)
+    if not attempt.solution.residual <= ACCEPTED:
+        reason = "; ".join(attempt.faults)
+        return Shape(vertices, sheet.flat, iterations, False, reason, residuals)
+    unfolded = unfold_panels(vertices, sheet.grid)
+    residuals["unfold_closure_m"] = unfolded.closure
+    faults = list(attempt.faults)
+    if find_overlap(unfolded.vertices, sheet.grid):
+        faults.append("the unfolded pattern overlaps itself")
+    if rigid:
+        _, closure = follow_path(vertices, unfolded.vertices, sheet.grid, PATH_PARTS)
+        residuals["refold_closure_m"] = closure
+        if not closure <= REFOLDED:
+            faults.append(f"panels part by {closure:.1e} m on the folding path")
+    reason = "; ".join(faults) or attempt.solution.reason
+    return Shape(vertices, unfolded.vertices, iterations, not faults, reason, residuals)

@@ -1,0 +1,168 @@
+"""Unfold planar panels into the plane, and fold them again along the rigid path.
+
+Panels are laid one after the other across shared edges; how far apart the copies of a vertex
+then lie is the closure, 0 for a developable sheet (and, folding, for a rigidly foldable one).
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from foldshell.pattern.angles import measure_folds
+from foldshell.pattern.grid import Grid
+
+
+@dataclass(frozen=True)
+class Assembly:
+    """Vertices (V, 3) [m], mean over the panels that share them, and the largest gap [m]."""
+
+    vertices: np.ndarray
+    closure: float
+
+
+def unfold_panels(vertices: np.ndarray, grid: Grid) -> Assembly:
+    """Lay every panel, congruent to the folded one, in the plane z = 0.
+
+    The first column is laid upwards from panel (0, 0), then every row across from it. The
+    sheet's middle is turned so that its strip lines run along y.
+    """
+    local = flatten_panels(vertices[grid.quads]).reshape(grid.zigzags - 1, -1, 4)
+    placed = np.empty_like(local)
+    placed[0, 0] = local[0, 0]
+    for i in range(1, len(local)):  # edge a-b of a panel is edge d-c of the one below
+        placed[i, 0] = _match(local[i, 0], (0, 1), placed[i - 1, 0][[3, 2]])
+    for j in range(1, local.shape[1]):  # edge a-d of a panel is edge b-c of the one before
+        placed[:, j] = _match(local[:, j], (0, 3), placed[:, j - 1][:, [1, 2]])
+    flat = placed.reshape(-1, 4)
+    sheet = _gather(np.stack([flat.real, flat.imag, 0 * flat.real], axis=-1), grid)
+    return Assembly(_align(sheet.vertices, grid), sheet.closure)
+
+
+def flatten_panels(corners: np.ndarray) -> np.ndarray:
+    """Complex coordinates (P, 4) of panels (P, 4, 3) in their own planes, seen from above."""
+    diagonals = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
+    normal = np.cross(*diagonals)
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    first = corners[:, 1] - corners[:, 0]
+    first -= np.einsum("ij,ij->i", first, normal)[:, None] * normal
+    first /= np.linalg.norm(first, axis=1)[:, None]
+    second = np.cross(normal, first)
+    arms = corners - corners[:, :1]
+    return np.einsum("pkc,pc->pk", arms, first) + 1j * np.einsum("pkc,pc->pk", arms, second)
+
+
+def _match(panel: np.ndarray, edge: tuple[int, int], onto: np.ndarray) -> np.ndarray:
+    """Turn and shift panels (..., 4) so that their edge lies on `onto` (..., 2), middle to middle.
+
+    The turn has modulus 1: a difference in length is left as a gap, not scaled away.
+    """
+    ends = panel[..., list(edge)]
+    turn = (onto[..., 1] - onto[..., 0]) / (ends[..., 1] - ends[..., 0])
+    turn /= np.abs(turn)
+    shift = onto.mean(axis=-1) - turn * ends.mean(axis=-1)
+    return turn[..., None] * panel + shift[..., None]
+
+
+def _gather(corners: np.ndarray, grid: Grid) -> Assembly:
+    """Average the copies of each vertex in panels (P, 4, 3); measure how far apart they lie."""
+    index = grid.quads.ravel()
+    count = np.bincount(index)
+    copies = corners.reshape(-1, 3)
+    mean = np.stack([np.bincount(index, copies[:, c]) / count for c in range(3)], axis=1)
+    gap = np.linalg.norm(copies - mean[index], axis=1).max()
+    return Assembly(mean, 2 * float(gap))
+
+
+def _align(flat: np.ndarray, grid: Grid) -> np.ndarray:
+    """Turn a flat sheet so that its strip lines run along y on the whole; corner at 0."""
+    along = flat[grid.zigzag == grid.zigzags - 1].mean(axis=0)
+    along -= flat[grid.zigzag == 0].mean(axis=0)
+    cosine, sine = along[1] / np.hypot(*along[:2]), along[0] / np.hypot(*along[:2])
+    turned = flat @ np.array([[cosine, sine, 0], [-sine, cosine, 0], [0, 0, 1.0]])
+    return turned - turned.min(axis=0)
+
+
+def scale_folds(folds: np.ndarray, part: float) -> np.ndarray:
+    """tan(phi / 2) times `part`: the fold angles of a rigidly foldable sheet on its way.
+
+    At flat-foldable vertices of degree four the half tangents keep their ratios (Tachi, 2009).
+    """
+    return 2 * np.arctan(part * np.tan(folds / 2))
+
+
+def fold_panels(flat: np.ndarray, grid: Grid, folds: np.ndarray) -> Assembly:
+    """Fold a flat sheet (V, 3) by hinge rotations to fold angles (E,) [rad], valley positive.
+
+    Each panel takes its neighbour's motion and turns on about the shared edge; the first
+    column is folded upwards, then every row across.
+    """
+    rows, columns = grid.zigzags - 1, grid.strips - 1
+    corners = flat[grid.quads].reshape(rows, columns, 4, 3)
+    along_zigzag = folds[: grid.zigzags * columns].reshape(grid.zigzags, columns)
+    along_strip = folds[grid.zigzags * columns : grid.neutral.start].reshape(rows, grid.strips)
+    turn = np.empty((rows, columns, 3, 3))
+    shift = np.empty((rows, columns, 3))
+    turn[0, 0], shift[0, 0] = np.eye(3), 0.0
+    for i in range(1, rows):
+        a, b = corners[i, 0, 0], corners[i, 0, 1]
+        turn[i, 0], shift[i, 0] = _hinge(
+            turn[i - 1, 0], shift[i - 1, 0], a, b - a, along_zigzag[i, 0]
+        )
+    for j in range(1, columns):
+        a, d = corners[:, j, 0], corners[:, j, 3]
+        turn[:, j], shift[:, j] = _hinge(
+            turn[:, j - 1], shift[:, j - 1], a, a - d, along_strip[:, j]
+        )
+    moved = np.einsum("ijcd,ijkd->ijkc", turn, corners) + shift[:, :, None]
+    return _gather(moved.reshape(-1, 4, 3), grid)
+
+
+def _hinge(turn, shift, point, axis, angle):
+    """Motion of the panel beyond an edge: the known motion after a turn about the flat edge."""
+    unit = axis / np.linalg.norm(axis, axis=-1, keepdims=True)
+    local = _rotation(unit, np.asarray(angle))
+    offset = point - np.einsum("...cd,...d->...c", local, point)
+    return turn @ local, np.einsum("...cd,...d->...c", turn, offset) + shift
+
+
+def _rotation(unit: np.ndarray, angle: np.ndarray) -> np.ndarray:
+    """Rodrigues: rotations (..., 3, 3) about unit axes (..., 3)."""
+    x, y, z = np.moveaxis(unit, -1, 0)
+    zero = np.zeros_like(x)
+    skew = np.stack(
+        [np.stack([zero, -z, y], -1), np.stack([z, zero, -x], -1), np.stack([-y, x, zero], -1)],
+        axis=-2,
+    )
+    sine, versine = np.sin(angle)[..., None, None], (1 - np.cos(angle))[..., None, None]
+    return np.eye(3) + sine * skew + versine * (skew @ skew)
+
+
+def follow_path(
+    folded: np.ndarray, flat: np.ndarray, grid: Grid, parts: np.ndarray
+) -> tuple[list[np.ndarray], float]:
+    """Refold a sheet along its rigid path: states (V, 3) at each of `parts`, largest gap [m]."""
+    folds = measure_folds(folded, grid)
+    states = [fold_panels(flat, grid, scale_folds(folds, part)) for part in parts]
+    return [state.vertices for state in states], max(state.closure for state in states)
+
+
+def find_overlap(flat: np.ndarray, grid: Grid) -> bool:
+    """Tell whether the flat sheet overlaps itself: a facet turned over, or its border crossing."""
+    corners = flat[grid.facets][:, :, :2]
+    one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    if (one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0] <= 0).any():
+        return True
+    number = np.arange(grid.zigzags * grid.strips).reshape(grid.zigzags, grid.strips)
+    ring = np.concatenate([number[0, :-1], number[:-1, -1], number[-1, :0:-1], number[:0:-1, 0]])
+    start, end = flat[ring, :2], flat[np.roll(ring, -1), :2]
+
+    def side(p, q, r):
+        return (q[..., 0] - p[..., 0]) * (r[..., 1] - p[..., 1]) - (q[..., 1] - p[..., 1]) * (
+            r[..., 0] - p[..., 0]
+        )
+
+    s, e = start[:, None], end[:, None]
+    crosses = (side(s, e, start) * side(s, e, end) < 0) & (
+        side(start, end, s) * side(start, end, e) < 0
+    )
+    return bool(crosses.any())
