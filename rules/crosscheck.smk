@@ -50,7 +50,8 @@ rule crosscheck:
         comparison=f"{RESULTS}/{{design}}/crosscheck/comparison.json",
         workbook=f"{RESULTS}/{{design}}/crosscheck/comparison.xlsx",
     params:
-        settings=lambda wildcards: of_stage("crosscheck")(wildcards)["crosscheck"],
+        subdivisions=SETTINGS.crosscheck.subdivisions,
+        tolerance=stage_parameters(SETTINGS, "crosscheck")["crosscheck"]["tolerance"],
     conda:
         "../envs/foldshell.yaml"
     script:
