@@ -7,7 +7,14 @@ from typing import Any
 
 from foldshell.workbook.history import add_history_sheets
 from foldshell.workbook.panels import FloatArray, IntArray, PanelGrid
-from foldshell.workbook.styles import Styles, add_sheet, create_workbook, mark_above, write_pairs
+from foldshell.workbook.styles import (
+    Styles,
+    add_sheet,
+    create_workbook,
+    mark_above,
+    split_unit,
+    write_pairs,
+)
 from foldshell.workbook.tables import Row, make_column, make_columns, write_table
 
 _CASES = ("SW", "SDL", "LL", "WX", "WY")
@@ -58,7 +65,9 @@ def _add_summary(book: Any, styles: Styles, report: DesignReport) -> None:
         sheet.write_string(row, column, name, styles["header"])
     for name, entry in report.criteria.items():
         row += 1
-        sheet.write_string(row, 0, name.replace("_", " "), styles["label"])
+        label, unit = split_unit(name)
+        label = label if unit == "-" else f"{label} [{unit}]"
+        sheet.write_string(row, 0, label, styles["label"])
         for column, key in ((1, "value"), (2, "limit")):
             _write_limit(sheet, styles, row, column, entry.get(key))
         met = "yes" if entry.get("met") else "no"

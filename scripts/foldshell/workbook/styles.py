@@ -20,7 +20,7 @@ _FORMATS: dict[str, dict[str, Any]] = {
     "title": {"bold": True, "font_size": 14, "font_color": _INK},
     "label": {"font_color": _INK},
     "text": {"align": "left", "indent": 1},
-    "wrap": {"text_wrap": True, "valign": "top"},
+    "wrap": {"text_wrap": True, "align": "left", "valign": "vcenter", "indent": 1},
     "header": {
         "bold": True,
         "bg_color": "#E5E7EB",
@@ -52,7 +52,7 @@ _FORMATS: dict[str, dict[str, Any]] = {
     "metre": {"num_format": "0.0000", "align": "right"},
     "decimal": {"num_format": "0.000", "align": "right"},
     "general": {"num_format": "0.0#####", "align": "right"},
-    "scientific": {"num_format": "0.0E+00", "align": "right"},
+    "scientific": {"num_format": "0.00E+00", "align": "right"},
     "change": {"num_format": "+0.0%;-0.0%;0.0%", "align": "right"},
     # Blue on pale yellow: the usual mark of a cell that a person may type into.
     "input": {"num_format": "0.0000", "font_color": "#0000FF", "bg_color": "#FFF9DB"},
@@ -199,7 +199,7 @@ def choose_style(value: Any) -> str:
         return "text"
     if isinstance(value, int):
         return "integer"
-    return "general" if value == 0 or 1e-3 <= abs(value) < 1e7 else "scientific"
+    return "general" if value == 0 or 1e-4 <= abs(value) < 1e7 else "scientific"
 
 
 def write_header(

@@ -1,6 +1,7 @@
 """Tables of plain rows: columns with units, written to .csv and to sheets alike."""
 
 import csv
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,6 +11,7 @@ from foldshell.study.files import atomic_path
 from foldshell.workbook.styles import Styles, split_unit, write_header, write_value
 
 Row = Mapping[str, Any]
+_LINE_HEIGHT = 13.5
 
 
 @dataclass(frozen=True)
@@ -56,6 +58,8 @@ def make_column(key: str) -> Column:
     """Choose unit, format and width by a column's key."""
     unit = split_unit(key)[1]
     width = max(10.0, min(18.0, 1.1 * len(key) + 2.0))
+    if key == "reason":
+        return Column(key, "", "wrap", _TEXTS[key])
     if key in _TEXTS or key in _TEXT_KEYS:
         return Column(key, "", "text", _TEXTS.get(key, 11.0))
     if key in _INTEGERS:
@@ -110,6 +114,9 @@ def write_table(
     heads = [(column.key, column.unit, column.style, column.width) for column in columns]
     write_header(sheet, styles, row, heads, upright)
     for offset, values in enumerate(rows, start=row + 2):
+        lines = _count_lines(columns, values)
+        if lines > 1:
+            sheet.set_row(offset, _LINE_HEIGHT * lines)
         for index, column in enumerate(columns):
             value = values.get(column.key)
             style = styles[column.style]
@@ -117,3 +124,13 @@ def write_table(
                 style = styles.choose_verdict(str(value))
             write_value(sheet, offset, index, value, style)
     return row + 2
+
+
+def _count_lines(columns: Sequence[Column], values: Row) -> int:
+    """Return the lines that the wrapped texts of a row need; not every program finds out itself."""
+    needed = [
+        math.ceil(1.1 * len(str(values.get(column.key) or "")) / column.width)
+        for column in columns
+        if column.style == "wrap"
+    ]
+    return max(needed, default=1)
