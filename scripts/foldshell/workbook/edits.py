@@ -19,7 +19,7 @@ def is_edited(workbook: str | Path) -> bool:
     workbook = Path(workbook)
     try:
         recorded = read_json(workbook.parent / RECORD)["sha256"]
-    except (OSError, ValueError, KeyError):
+    except (OSError, ValueError, KeyError, TypeError):
         return False
     return workbook.exists() and hash_file(workbook) != recorded
 

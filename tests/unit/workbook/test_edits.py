@@ -54,7 +54,7 @@ def test_all_designs_are_searched(path, tmp_path):
     assert keep_all_edited(tmp_path) == [path]
 
 
-@pytest.mark.parametrize("record", [None, "", "{}", "not json"])
+@pytest.mark.parametrize("record", [None, "", "{}", "[]", "not json"])
 def test_without_a_record_nothing_is_claimed(path, record):
     (path.parent / RECORD).unlink()
     if record is not None:
