@@ -18,6 +18,11 @@ def check_sizing(sizing: Sizing, source: str) -> None:
             f"{source}: sizing.start_thickness_mm: {1e3 * start:g}: least_thickness_mm = "
             f"{1e3 * least:g} to largest_thickness_mm = {1e3 * sizing.largest_thickness:g} "
             "is allowed"
+            + (
+                ", the value looks like m"
+                if least <= 1e3 * start <= sizing.largest_thickness
+                else ""
+            )
         )
     if sizing.utilization_min >= sizing.utilization_max:
         raise InputError(

@@ -1,5 +1,6 @@
 """JSON Schema in YAML files: load, fill in defaults, validate with one sentence an error."""
 
+import functools
 import math
 import re
 from collections.abc import Iterator, Mapping
@@ -19,8 +20,13 @@ _TYPES = {**_NUMBERS, "string": "text", "boolean": "true or false", "array": "a 
 
 def load_schema(name: str, folder: Path = CONFIG_FOLDER) -> dict[str, Any]:
     """Read a schema file with every `$ref` (`file#/pointer` or `#/pointer`) written out."""
-    document = yaml.safe_load((folder / name).read_text(encoding="utf-8"))
+    document = _read_schema(folder / name)
     return _resolve(document, document, folder)
+
+
+@functools.cache
+def _read_schema(path: Path) -> dict[str, Any]:
+    return yaml.safe_load(path.read_text(encoding="utf-8"))
 
 
 def _resolve(node: Any, document: Any, folder: Path) -> Any:
@@ -32,7 +38,8 @@ def _resolve(node: Any, document: Any, folder: Path) -> Any:
     if not isinstance(node.get("$ref"), str):
         return own
     file, _, pointer = node["$ref"].partition("#/")
-    target = load_schema(file, folder) if file else document
+    document = _read_schema(folder / file) if file else document
+    target = document
     for step in pointer.split("/"):
         target = target[step]
     return {**_resolve(target, document, folder), **own}
