@@ -173,9 +173,7 @@ def _draft(
     )  # fmt: skip
     all_keys = (*line_keys, *keys, Key("support", "pinned edges"))
     words = (facts, describe_verdict(state.report))
-    return Draft(
-        scene, Caption(f"{title}: {state.name}", words, quantity, scale, above, all_keys)
-    )
+    return Draft(scene, Caption(f"{title}: {state.name}", words, quantity, scale, above, all_keys))
 
 
 def _draft_nothing(subject: Subject, title: str, words: str) -> Draft:
@@ -194,9 +192,7 @@ def describe_verdict(report: Mapping[str, Any]) -> str:
     return f"{words}: {report['reason']}" if report.get("reason") else words
 
 
-def crease_lines(
-    subject: Subject, points: np.ndarray
-) -> tuple[tuple[Lines, ...], tuple[Key, ...]]:
+def crease_lines(subject: Subject, points: np.ndarray) -> tuple[tuple[Lines, ...], tuple[Key, ...]]:
     """Return mountains as lines, valleys as dashes, other panel borders thin, and their keys."""
     creases = subject.creases
     dashes = cut_dashes(points[creases.valley], subject.size / 90)
