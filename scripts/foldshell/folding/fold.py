@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from foldshell.folding.isometric import fold_isometrically
 from foldshell.folding.problem import attracted_vertices
 from foldshell.folding.quality import Quality, measure_quality
 from foldshell.folding.settings import MODES, FoldSettings, Limits
@@ -54,13 +55,17 @@ def fold_sheet(sheet: Sheet, target, mode: str, settings: FoldSettings) -> FoldR
     quality = measure_quality(
         shape.vertices, sheet.grid, shape.flat, distances, target.span, folded
     )
-    state, reason = judge_shape(shape, quality, settings.limits)
+    state, reason = judge_shape(shape, quality, settings.limits, mode)
     seconds = time.perf_counter() - start
     return FoldResult(shape, attracted, distances, quality, state, reason, seconds)
 
 
-def judge_shape(shape: Shape, quality: Quality, limits: Limits) -> tuple[str, str]:
-    """Name the state of a folded sheet and the reason for it."""
+def judge_shape(shape: Shape, quality: Quality, limits: Limits, mode: str) -> tuple[str, str]:
+    """Name the state of a folded sheet and the reason for it.
+
+    An isometric sheet far from its target is not_reached whatever else is wrong with it: that
+    no isometry leads there is the finding, and folds turned over only its consequence.
+    """
     faults = []
     if quality.flipped_folds:
         faults.append(f"{quality.flipped_folds} folds turned over")
@@ -68,13 +73,12 @@ def judge_shape(shape: Shape, quality: Quality, limits: Limits) -> tuple[str, st
         faults.append(f"{quality.self_intersections} facet pairs cut each other")
     if quality.plan_coverage < limits.plan_coverage:
         faults.append(f"plan coverage {quality.plan_coverage:.3f} < {limits.plan_coverage:g}")
-    if faults:
+    missed = quality.rms_over_span > limits.rms_over_span
+    distance = f"rms distance {quality.rms_over_span:.2e} span > {limits.rms_over_span:g}"
+    if faults and not (missed and mode == "isometric"):
         return "crumpled", "; ".join(faults)
-    if quality.rms_over_span > limits.rms_over_span:
-        return "not_reached", (
-            f"rms distance {quality.rms_over_span:.2e} span > {limits.rms_over_span:g}; "
-            f"{shape.reason}"
-        )
+    if missed:
+        return "not_reached", "; ".join([distance, shape.reason, *faults])
     return ("ok" if shape.converged else "not_reached"), shape.reason
 
 
@@ -100,6 +104,7 @@ Solver = Callable[[Sheet, object, FoldSettings], Shape]
 LAYOUTS: dict[str, Solver] = {"smooth": lay_smooth, "flat": lay_flat}
 SOLVERS: dict[str, Solver] = {
     "paper": fold_softly,
+    "isometric": fold_isometrically,
     "exact": fold_exactly,
     "rigid": fold_rigidly,
 }
