@@ -17,7 +17,9 @@ def make_neutral_model(
     """Return the neutral model as plain data in kN, m and kPa.
 
     Facets are flat triangles, counter-clockwise seen from above; every mesh node on a supported
-    edge is pinned (translations only). No finite element mesh is given: the reader makes its own.
+    edge is pinned (translations only). The superimposed dead load acts against the normal of the
+    sheet, also where a facet overhangs (`dead_side`). No finite element mesh is given: the reader
+    makes its own.
 
     Parameters
     ----------
@@ -48,6 +50,7 @@ def make_neutral_model(
             "LL": loads["live"],
             "W": loads["wind"],
             "wind_fraction": loads["wind_fraction"],
+            "dead_side": "sheet",
         },
         "area_basis": loads["area_basis"],
         "combinations": {**groups["strength"], **groups["deflection"]},

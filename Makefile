@@ -1,0 +1,49 @@
+# `make study` and `make test` set up everything from nothing: a virtual environment from the
+# hashed lock file, then the job. With an environment at hand use `snakemake --cores 2` and pytest.
+
+VENV ?= .venv
+PYTHON ?= python3.11
+CORES ?= 2
+STAMP := $(VENV)/.installed
+RUN := $(VENV)/bin
+export OPENBLAS_NUM_THREADS ?= 1
+export OMP_NUM_THREADS ?= 1
+
+.PHONY: help study demo test verification lint bench clean
+
+help:
+	@echo "make study         fold, size and cross-check the nine designs tagged supports: results/summary.xlsx"
+	@echo "make demo          one small design to its pictures: results/tags/demo/summary.xlsx"
+	@echo "make test          the tests"
+	@echo "make verification  the long verification chapter"
+	@echo "make bench         timings, written to results/bench"
+	@echo "make lint          style checks"
+	@echo "CORES=$(CORES) VENV=$(VENV) PYTHON=$(PYTHON) may be set on the command line"
+
+$(STAMP): envs/requirements.lock
+	@command -v $(PYTHON) >/dev/null || { echo "error: $(PYTHON) is not on the path: Python 3.11 is needed, or call make PYTHON=..."; exit 1; }
+	$(PYTHON) -m venv $(VENV)
+	$(RUN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r envs/requirements.lock
+	@touch $@
+
+study: $(STAMP)
+	PATH="$(CURDIR)/$(RUN):$$PATH" snakemake --cores $(CORES) --config study=supports
+
+demo: $(STAMP)
+	PATH="$(CURDIR)/$(RUN):$$PATH" snakemake --cores $(CORES) demo
+
+test: $(STAMP)
+	PATH="$(CURDIR)/$(RUN):$$PATH" python -m pytest
+
+verification: $(STAMP)
+	PATH="$(CURDIR)/$(RUN):$$PATH" python -m pytest -m verification
+
+bench: $(STAMP)
+	PATH="$(CURDIR)/$(RUN):$$PATH" python -m pytest -m bench tests/bench -s
+
+lint: $(STAMP)
+	$(RUN)/ruff check .
+	$(RUN)/ruff format --check .
+
+clean:
+	rm -rf $(VENV) .pytest_cache .ruff_cache
