@@ -8,6 +8,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
+
 from foldshell.shell.analysis import AnalysisOptions, analyse_shell, build_model
 from foldshell.shell.loads import Loads
 from foldshell.shell.material import Material

@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from shell_cases import dense_stiffness, folded_strip, skewed_patch
+
 from foldshell.shell.analysis import AnalysisOptions, analyse_shell, build_model
 from foldshell.shell.loads import LOAD_CASES, Loads, combination_matrix, nodal_forces, surface_loads
 from foldshell.shell.material import (
@@ -30,7 +32,6 @@ from foldshell.shell.stress import (
     stress_resultants,
     surface_stresses,
 )
-from shell_cases import dense_stiffness, folded_strip, skewed_patch
 
 CONCRETE = Material("C25/30", 31e6, 0.2, 25.0, 16_700.0, 1_670.0)
 

@@ -2,6 +2,8 @@
 
 import numpy as np
 import pytest
+from shell_cases import folded_strip, skewed_patch
+
 from foldshell.shell.analysis import AnalysisOptions, analyse_shell, build_model
 from foldshell.shell.assembly import assemble_stiffness, translation_dofs
 from foldshell.shell.buckling import find_buckling_factors
@@ -14,7 +16,6 @@ from foldshell.shell.mesh import build_mesh
 from foldshell.shell.second_order import solve_second_order
 from foldshell.shell.stiffness import build_operators
 from foldshell.shell.stress import membrane_forces
-from shell_cases import folded_strip, skewed_patch
 
 CONCRETE = Material("C25/30", 31e6, 0.2, 25.0, 16_700.0, 1_670.0)
 COMBINATIONS = {
