@@ -13,6 +13,7 @@ rule draw:
     output:
         **{name: f"{RESULTS}/{{design}}/figures/{name}.png" for name in PICTURES},
         vtu=f"{RESULTS}/{{design}}/design.vtu",
+        lines=f"{RESULTS}/{{design}}/design_lines.vtu",
     params:
         **of_design("span_m"),
         settings=lambda wildcards: of_stage("analyse")(wildcards) | of_stage("figures")(wildcards),

@@ -1,12 +1,13 @@
-"""Rule draw: the pictures of a design, and its final fields as design.vtu."""
+"""Rule draw: the pictures of a design, its final fields and its force lines as VTU."""
 
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from foldshell.exchange.design_vtu import write_design_vtu
+from foldshell.exchange.design_vtu import write_design_vtu, write_lines_vtu
+from foldshell.figures.drafts import Elasticity, Limits, make_subject
 from foldshell.figures.layout import save_png
-from foldshell.figures.pictures import Limits, draw_design
+from foldshell.figures.pictures import draw_design
 from foldshell.figures.state import read_state
 from foldshell.study.errors import user_errors
 
@@ -17,13 +18,14 @@ def main(
     final_path: str | Path,
     report_path: str | Path,
     vtu_path: str | Path,
+    lines_path: str | Path,
     pictures: Mapping[str, str | Path],
     *,
     design: str,
     span_m: float,
     settings: Mapping[str, Any],
 ) -> None:
-    """Write design.vtu and the PNG files of `pictures`, by their names in `PICTURES`.
+    """Write design.vtu, design_lines.vtu and the PNG files of `pictures`, named as in `PICTURES`.
 
     `settings` are the parameters of the stages `analyse` and `figures`; report_path is
     final.json.
@@ -32,10 +34,13 @@ def main(
         design, mesh_path, folded_path, final_path, report_path, settings["combinations"]
     )
     material, sizing, figures = (settings[name] for name in ("material", "sizing", "figures"))
-    write_design_vtu(vtu_path, state, material["youngs_modulus"], material["poissons_ratio"])
+    elasticity = Elasticity(material["youngs_modulus"], material["poissons_ratio"])
+    write_design_vtu(vtu_path, state, elasticity)
     limits = Limits(sizing["utilization_max"], sizing["displacement_limit_span_over"])
+    subject = make_subject(state, span_m, limits, elasticity)
+    write_lines_vtu(lines_path, subject)
     size = (figures["width_px"], figures["height_px"])
-    for name, picture in draw_design(state, span_m, limits, size, tuple(pictures)).items():
+    for name, picture in draw_design(subject, size, tuple(pictures)).items():
         save_png(pictures[name], picture)
 
 
@@ -48,6 +53,7 @@ if "snakemake" in globals():
             snakemake.input.final,  # noqa: F821
             snakemake.input.report,  # noqa: F821
             files.pop("vtu"),
+            files.pop("lines"),
             files,
             design=snakemake.wildcards.design,  # noqa: F821
             **snakemake.params,  # noqa: F821

@@ -13,21 +13,23 @@ from pathlib import Path
 
 import numpy as np
 
+from foldshell.figures.drafts import Elasticity, Subject
 from foldshell.figures.fields import (
     cell_thickness,
     choose_deflection,
     choose_strength,
     membrane_force_cells,
+    membrane_force_coefficients,
     principal_forces,
 )
+from foldshell.figures.flow_pictures import utilization_isolines
+from foldshell.figures.force_lines import split_lines
 from foldshell.figures.state import DesignState
 from foldshell.shell.mesh import edge_polyline_nodes
 from foldshell.study.files import atomic_path
 
 
-def cell_fields(
-    state: DesignState, youngs_modulus: float, poissons_ratio: float
-) -> dict[str, np.ndarray]:
+def cell_fields(state: DesignState, elasticity: Elasticity) -> dict[str, np.ndarray]:
     """Return the cell fields (C,) or (C, 3) that the state allows, by name."""
     fields: dict[str, np.ndarray] = {
         "panel": state.cell_panel.astype(np.int32),
@@ -41,16 +43,16 @@ def cell_fields(
         governing = state.final["governing_combination"].ravel() + 1
         fields["governing_combination"] = governing.astype(np.int32)
     if state.usable:
-        fields |= force_fields(state, youngs_modulus, poissons_ratio)
+        fields |= force_fields(state, elasticity)
     return fields
 
 
-def force_fields(
-    state: DesignState, youngs_modulus: float, poissons_ratio: float
-) -> dict[str, np.ndarray]:
+def force_fields(state: DesignState, elasticity: Elasticity) -> dict[str, np.ndarray]:
     """Return membrane forces and principal forces of the combination that governs most."""
     name = choose_strength(state)
-    force, axes = membrane_force_cells(state, name, youngs_modulus, poissons_ratio)
+    stiffness = (elasticity.youngs_modulus, elasticity.poissons_ratio)
+    found = membrane_force_coefficients(state, name, *stiffness)
+    force, axes = membrane_force_cells(*found, state.mesh)
     value, direction = principal_forces(force, axes)
     fields = {"nx": force[:, 0], "ny": force[:, 1], "nxy": force[:, 2], "axis_x": axes[:, 0]}
     for k in (0, 1):
@@ -74,13 +76,11 @@ def point_fields(state: DesignState) -> dict[str, np.ndarray]:
     return fields
 
 
-def write_design_vtu(
-    path: str | Path, state: DesignState, youngs_modulus: float, poissons_ratio: float
-) -> None:
+def write_design_vtu(path: str | Path, state: DesignState, elasticity: Elasticity) -> None:
     """Write design.vtu: result cells as triangles, nodes in m."""
     import meshio
 
-    fields = cell_fields(state, youngs_modulus, poissons_ratio)
+    fields = cell_fields(state, elasticity)
     grid = meshio.Mesh(
         state.cells.nodes,
         [("triangle", state.triangles)],
@@ -89,3 +89,41 @@ def write_design_vtu(
     )
     with atomic_path(path) as temporary:
         grid.write(temporary, file_format="vtu")
+
+
+def write_lines_vtu(path: str | Path, subject: Subject) -> None:
+    """Write design_lines.vtu: force lines and utilization isolines as two-point cells.
+
+    Cell fields: kind (1 and 2: trajectories of n1 and n2; 3: isoline), force [kN/m] (tension
+    positive, nan on isolines), utilization [-] (nan on force lines).
+    """
+    import meshio
+
+    parts = [*_force_parts(subject), *_isoline_parts(subject)]
+    segments = np.concatenate([np.empty((0, 2, 3)), *(part[0] for part in parts)])
+    kind, force, level = np.concatenate([np.empty((3, 0)), *(part[1] for part in parts)], axis=1)
+    data = {"kind": [kind.astype(np.int32)], "force": [force], "utilization": [level]}
+    cells = [("line", np.arange(2 * len(segments)).reshape(-1, 2))]
+    grid = meshio.Mesh(segments.reshape(-1, 3), cells, cell_data=data)
+    with atomic_path(path) as temporary:
+        grid.write(temporary, file_format="vtu")
+
+
+def _force_parts(subject: Subject) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Return segments (S, 2, 3) and rows kind, force, utilization (3, S) of each family."""
+    parts = []
+    for family in (0, 1) if subject.state.usable else ():
+        lines = [line for line in subject.force_lines[1] if line.family == family]
+        segments, force = split_lines(lines)
+        kind = np.full(len(force), family + 1.0)
+        parts.append((segments, np.stack([kind, force, np.full(len(force), np.nan)])))
+    return parts
+
+
+def _isoline_parts(subject: Subject) -> list[tuple[np.ndarray, np.ndarray]]:
+    if subject.state.utilization is None:
+        return []
+    return [
+        (segments, np.repeat([[3.0], [np.nan], [level]], len(segments), axis=1))
+        for level, segments in utilization_isolines(subject)
+    ]

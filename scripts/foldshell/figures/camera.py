@@ -65,3 +65,14 @@ def fit_camera(
         if abs(fill - 1) < 1e-6 and np.abs(shift).max() < 1e-6 * radius:
             break
     return Camera(focus + distance * away, focus, angle)
+
+
+def look_at(points: np.ndarray, place: np.ndarray) -> tuple[float, float, float]:
+    """Return the standard direction, turned to the corner in plan that is nearest a place (3,)."""
+    middle = (points.max(axis=0) + points.min(axis=0)) / 2
+    x, y, z = STANDARD_DIRECTION
+    return (
+        abs(x) if place[0] > middle[0] else -abs(x),
+        abs(y) if place[1] > middle[1] else -abs(y),
+        z,
+    )

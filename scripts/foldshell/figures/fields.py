@@ -3,8 +3,15 @@
 import numpy as np
 
 from foldshell.figures.state import DesignState
-from foldshell.shell.stiffness import build_operators
-from foldshell.shell.stress import cell_values, membrane_forces
+from foldshell.shell.element import (
+    ElementGeometry,
+    element_geometry,
+    membrane_strain_operator,
+)
+from foldshell.shell.mesh import ShellMesh
+from foldshell.shell.reference import orthonormal_basis
+from foldshell.shell.stiffness import plane_stress
+from foldshell.shell.stress import cell_points
 
 
 def cell_thickness(state: DesignState) -> np.ndarray:
@@ -37,22 +44,37 @@ def choose_strength(state: DesignState) -> str:
     return state.strength[int(area.argmax())]
 
 
-def membrane_force_cells(
+def membrane_force_coefficients(
     state: DesignState, combination: str, youngs_modulus: float, poissons_ratio: float
+) -> tuple[np.ndarray, ElementGeometry]:
+    """N = t E D eps(u): coefficients (E, 3, m) kN/m as in `stress.membrane_forces`, and frames.
+
+    For one combination, without the stiffness matrices that the analysis needs.
+    """
+    mesh = state.mesh
+    geometry = element_geometry(mesh)
+    column = state.combinations.index(combination)
+    moved = state.final["displacement"][: 3 * len(mesh.nodes), column].reshape(-1, 3)
+    local = np.matmul(moved[mesh.elements], geometry.frame[:, :2].transpose(0, 2, 1))
+    operator = membrane_strain_operator(mesh, geometry)
+    strain = np.einsum("ecmna,ena->ecm", operator, local)
+    stiffness = youngs_modulus * state.final["thickness"][mesh.panel]
+    force = np.matmul(plane_stress(poissons_ratio), strain) * stiffness[:, None, None]
+    return force, geometry
+
+
+def membrane_force_cells(
+    coefficients: np.ndarray, geometry: ElementGeometry, mesh: ShellMesh
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return forces (C, 3) kN/m, xx, yy, xy, and their facet axes (C, 3, 3) as rows x, y, normal.
 
     x is the direction of the facet in which global x rises fastest (global y where a facet
     stands across x): neighbouring facets get axes that can be compared.
     """
-    operators = build_operators(state.mesh, poissons_ratio)
-    column = state.combinations.index(combination)
-    thickness = state.final["thickness"][state.mesh.panel]
-    displacement = state.final["displacement"][:, [column]]
-    force = membrane_forces(operators, displacement, thickness, youngs_modulus)
-    force = cell_values(operators, force)[:, :, 0]
-    axes = facet_axes(operators.geometry.frame[:, 2])
-    force = rotate_forces(force, operators.geometry.frame, axes)
+    basis = orthonormal_basis(mesh.order - 1, cell_points(mesh.cells))
+    force = np.einsum("qm,ecm->eqc", basis, coefficients)
+    axes = facet_axes(geometry.frame[:, 2])
+    force = rotate_forces(force, geometry.frame, axes)
     return force.reshape(-1, 3), np.repeat(axes, force.shape[1], axis=0)
 
 

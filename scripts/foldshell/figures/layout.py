@@ -28,7 +28,8 @@ class Key:
 
 @dataclass(frozen=True)
 class Caption:
-    """All words of a picture; `scale` None leaves the colour bar out, `quantity` carries a unit."""
+    """All words of a picture; `quantity`, with its unit, stands over the colour bar, or alone
+    where `scale` is None."""
 
     title: str
     lines: Sequence[str]
@@ -68,6 +69,9 @@ def compose(
     if caption.scale is not None:
         box = (left, base + round(62 * unit), round(0.60 * width), base + round(102 * unit))
         _draw_bar(picture, box, caption, unit)
+    else:
+        for k, line in enumerate(wrap(caption.quantity, font, 0.58 * width)):
+            pen.text((left, base + round((12 + 37 * k) * unit)), line, INK, font)
     _draw_keys(pen, (round(0.66 * width), base + round(8 * unit)), caption.keys, unit)
     return picture
 

@@ -1,0 +1,135 @@
+"""Pictures of how a design carries: force lines, utilization isolines, buckling mode."""
+
+from dataclasses import replace
+
+import numpy as np
+
+from foldshell.figures.camera import look_at
+from foldshell.figures.colours import (
+    ABOVE,
+    COMPRESSION,
+    TENSION,
+    ColourScale,
+    make_limit_scale,
+    make_scale,
+)
+from foldshell.figures.drafts import (
+    Draft,
+    Subject,
+    crease_lines,
+    describe_verdict,
+    draft_field,
+    draft_nothing,
+    lines_before,
+    support_marks,
+)
+from foldshell.figures.fields import cell_area
+from foldshell.figures.force_lines import split_lines
+from foldshell.figures.isolines import find_isolines, panel_node_values
+from foldshell.figures.layout import INK, SOFT, Caption, Key
+from foldshell.figures.render import Lines, Scene
+
+PAPER = (240, 240, 236)
+WIDTHS = ((0.04, 1.5), (0.2, 3.0), (0.5, 5.0))
+"""Least share of the large forces, and width in pixels of the lines from there on."""
+LARGE_PERCENTILE = 95.0
+MODE_SHARE = 0.05
+"""A buckling mode is drawn this share of the span large."""
+ISOLINES = 5
+
+
+def utilization_isolines(subject: Subject) -> list[tuple[float, np.ndarray]]:
+    """Return levels, equally spaced from 0, and their segments (S, 2, 3) m."""
+    state = subject.state
+    corners = state.cells.nodes[state.triangles]
+    values = panel_node_values(
+        state.utilization, state.triangles, state.cell_panel, cell_area(state)
+    )
+    scale = make_limit_scale(values, subject.limits.utilization_max)
+    levels = np.linspace(scale.low, scale.high, ISOLINES + 1)[1:]
+    return [(float(level), find_isolines(corners, values, level)) for level in levels]
+
+
+def draft_force_lines(subject: Subject) -> Draft:
+    """Trajectories of the principal membrane forces; width by force, colour by sign."""
+    state = subject.state
+    if not state.usable:
+        return draft_nothing(subject, "Force lines", "no displacement, so no membrane forces")
+    name, lines = subject.force_lines
+    segments, force = split_lines(lines)
+    large = float(np.percentile(np.abs(force), LARGE_PERCENTILE)) if force.size else 0.0
+    keys = [Key("solid", "tension", TENSION), Key("solid", "compression", COMPRESSION)]
+    facts = f"trajectories of the principal membrane forces of {name}, traced across the folds"
+    bounds = ", ".join(f"{share * large:.0f}" for share, _ in WIDTHS)
+    classes = f"Thin, medium, thick lines: more than {bounds} kN/m. Weaker forces are left out."
+    lines = _by_force(segments, force, large)
+    return _draft_lines(subject, "Force lines", facts, classes, lines, keys)
+
+
+def _by_force(segments: np.ndarray, force: np.ndarray, large: float) -> list[Lines]:
+    lines = []
+    bounds = [share for share, _ in WIDTHS] + [np.inf]
+    for colour, sign in ((COMPRESSION, -1), (TENSION, 1)):
+        for (share, width), end in zip(WIDTHS, bounds[1:], strict=True):
+            chosen = (sign * force >= share * large) & (sign * force < end * large)
+            lines.append(Lines(segments[chosen], colour, width))
+    return lines
+
+
+def draft_isolines(subject: Subject) -> Draft:
+    """Lines of equal utilization; that of the limit is thick and red."""
+    state, limit = subject.state, subject.limits.utilization_max
+    if state.utilization is None:
+        return draft_nothing(subject, "Utilization isolines", "no utilization")
+    found = utilization_isolines(subject)
+    highest = found[-1][0]
+    scale = ColourScale(0.0, highest, limit=limit if highest == limit else None)
+    lines = []
+    for level, segments in found:
+        at_limit = level == limit
+        colour = ABOVE if at_limit else tuple(scale.colour(level).tolist())
+        lines.append(Lines(segments, colour, 4.5 if at_limit else 2.5))
+    words = f"largest of {state.strength[0]} to {state.strength[-1]}, means at the nodes of a panel"
+    keys = [Key("solid", f"utilization {limit:g}", ABOVE)] if highest == limit else []
+    draft = _draft_lines(subject, "Utilization isolines", words, "", lines, keys)
+    quantity = f"utilization [-], a line each {highest / len(found):.3g}"
+    above = "above" if highest == limit else ""
+    return replace(
+        draft, caption=replace(draft.caption, quantity=quantity, scale=scale, above=above)
+    )
+
+
+def draft_buckling(subject: Subject) -> Draft:
+    """The buckling mode of the least factor, drawn large."""
+    state = subject.state
+    factors = {k: v for k, v in state.report.get("buckling_factor", {}).items() if v is not None}
+    if "buckling_modes" not in state.final or not factors:
+        return draft_nothing(subject, "Buckling mode", "no buckling mode")
+    name = min(factors, key=factors.get)
+    mode = state.buckling_mode(name)
+    before = lines_before(subject)
+    facts = f"{name}: buckling factor {factors[name]:.2f}; the size of the mode is arbitrary"
+    values = np.linalg.norm(mode, axis=1)
+    draft = draft_field(
+        subject, "Buckling mode", facts, "translation / largest [-]", values,
+        make_scale(np.array([0.0, 1.0]), "cividis"),
+        points=state.cells.nodes + MODE_SHARE * subject.span * mode, extra=(before,),
+        keys=(Key("solid", "undisplaced", before.colour),),
+    )  # fmt: skip
+    return replace(draft, direction=look_at(state.cells.nodes, state.cells.nodes[values.argmax()]))
+
+
+def _draft_lines(
+    subject: Subject, title: str, facts: str, classes: str, lines: list[Lines], keys: list[Key]
+) -> Draft:
+    """Return lines on a pale sheet; creases thin, so that they do not compete."""
+    state = subject.state
+    creases, _ = crease_lines(subject, state.cells.nodes)
+    thin = [Lines(line.points, SOFT, 0.5 * line.width, 0.5 * line.lift) for line in creases]
+    colours = np.tile(np.array(PAPER, dtype=np.uint8), (len(state.triangles), 1))
+    scene = Scene(
+        state.cells.nodes, state.triangles, colours, (*thin, *lines), *support_marks(subject)
+    )
+    words = (facts, describe_verdict(state.report))
+    keys = [*keys, Key("support", "pinned edges", INK)]
+    return Draft(scene, Caption(f"{title}: {state.name}", words, classes, keys=keys))

@@ -1,0 +1,41 @@
+"""Isolines of a cell field, by linear interpolation inside each panel."""
+
+import numpy as np
+
+
+def panel_node_values(
+    values: np.ndarray, triangles: np.ndarray, panel: np.ndarray, area: np.ndarray
+) -> np.ndarray:
+    """Return corner values (C, 3) of cell values (C,): area means over a node's cells of a panel.
+
+    Panels stay apart, since stresses jump across a fold.
+    """
+    key = panel[:, None] * (triangles.max() + 1) + triangles
+    _, number = np.unique(key, return_inverse=True)
+    number = number.reshape(-1)
+    weight = np.repeat(area, 3)
+    total = np.bincount(number, weight * np.repeat(values, 3)) / np.bincount(number, weight)
+    return total[number].reshape(-1, 3)
+
+
+def find_isolines(corners: np.ndarray, values: np.ndarray, level: float) -> np.ndarray:
+    """Return the segments (S, 2, 3) on which a linear field has a level.
+
+    Parameters
+    ----------
+    corners : (C, 3, 3) m, corners of the triangles
+    values : (C, 3) at them
+    """
+    above = values > level
+    cut = above.any(axis=1) & ~above.all(axis=1)
+    corners, values, above = corners[cut], values[cut], above[cut]
+    single = above.sum(axis=1) == 1
+    apex = np.where(single, above.argmax(axis=1), above.argmin(axis=1))
+    row = np.arange(len(apex))
+    start, height = corners[row, apex], values[row, apex]
+    ends = []
+    for turn in (1, 2):
+        other = (apex + turn) % 3
+        share = (level - height) / (values[row, other] - height)
+        ends.append(start + share[:, None] * (corners[row, other] - start))
+    return np.stack(ends, axis=1)
