@@ -2,19 +2,25 @@
 
 from foldshell.folding.levenberg import minimise_terms
 from foldshell.folding.problem import build_terms, place_sheet
+from foldshell.folding.projections import average_projections
 from foldshell.folding.settings import FoldSettings
 from foldshell.folding.shape import Shape
 from foldshell.pattern.sheet import Sheet
+
+# Averaged projections creep: many more iterations, judged over a window of them.
+EXPLICIT_ITERATIONS, EXPLICIT_TOLERANCE = 50, 10.0
 
 
 def fold_softly(sheet: Sheet, target, settings: FoldSettings) -> Shape:
     """Paper mode: minimise the weighted squares of stretch, hinges, attraction, plan edge."""
     terms = build_terms(sheet, target, settings.attract, settings.weights)
-    minimum = minimise_terms(
+    explicit = settings.engine == "averaged_projections"
+    minimise = average_projections if explicit else minimise_terms
+    minimum = minimise(
         terms,
         place_sheet(sheet, target, settings.attract),
-        max_iterations=settings.max_iterations,
-        cost_tolerance=settings.tolerance,
+        max_iterations=settings.max_iterations * (EXPLICIT_ITERATIONS if explicit else 1),
+        cost_tolerance=settings.tolerance * (EXPLICIT_TOLERANCE if explicit else 1.0),
         step_tolerance=1e-9 * target.span,
     )
     return Shape(

@@ -1,10 +1,20 @@
-"""Targets by name."""
+"""Targets by name: the surfaces of the study, or a mesh file."""
 
+from pathlib import Path
+
+from foldshell.folding.mesh_target import SUFFIXES, MeshTarget, read_mesh_target
 from foldshell.folding.quadric import SURFACES, Quadric, make_quadric
 
 
-def make_target(surface: str, span_m: float, height_m: float) -> Quadric:
-    """Build the target surface `surface` over a square plan of side span [m]."""
+def make_target(surface: str, span_m: float, height_m: float) -> Quadric | MeshTarget:
+    """Build the target surface over a square plan of side span [m].
+
+    `surface` is one of SURFACES or a mesh file in metres, whose heights are its own.
+    """
+    if surface not in SURFACES and Path(surface).suffix.lower() in SUFFIXES:
+        if not span_m > 0:
+            raise ValueError(f"span {span_m}: must be positive")
+        return read_mesh_target(surface, float(span_m))
     return make_quadric(surface, span_m, height_m)
 
 

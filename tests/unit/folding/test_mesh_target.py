@@ -1,0 +1,113 @@
+"""Free-form targets: distances against the exact surface, folding onto three meshes, refusals."""
+
+import numpy as np
+import pytest
+import pyvista
+
+from foldshell.folding.fold import fold_sheet
+from foldshell.folding.quadric import make_quadric
+from foldshell.folding.settings import FoldSettings
+from foldshell.folding.targets import make_target
+from foldshell.pattern.design import design_sheet
+from foldshell.study.errors import InputError
+
+SHAPES = {
+    "bumps.stl": lambda x, y: (
+        3 * np.exp(-((x - 4) ** 2 + (y + 3) ** 2) / 90)
+        + 4 * np.exp(-((x + 6) ** 2 + (y - 5) ** 2) / 120)
+    ),
+    "wave.vtu": lambda x, y: 1.2 * np.sin(x / 6) + 0.8 * np.cos(y / 7) + 0.02 * x * y,
+    "skew.ply": lambda x, y: 6 - 0.012 * x**2 - 0.02 * y**2 + 0.008 * x * y + 0.0006 * x**3,
+    "barrel.obj": lambda x, y: 5 * np.cos(x / 10) * (1 + 0.02 * y),
+    "dome.vtk": lambda x, y: 9 * np.cos(np.pi * x / 40) * np.cos(np.pi * y / 44),
+}
+
+
+def write_surface(path, height, span=28.0, points=90, margin=1.02, scale=1.0):
+    """Triangulate z = height(x, y) over a square and save it in the suffix's format."""
+    along = np.linspace(-span / 2 * margin, span / 2 * margin, points)
+    x, y = np.meshgrid(along, along)
+    mesh = pyvista.StructuredGrid(x * scale, y * scale, height(x, y) * scale)
+    mesh = mesh.extract_surface(algorithm=None).triangulate()
+    if path.suffix == ".vtu":
+        mesh = mesh.cast_to_unstructured_grid()
+    mesh.save(path)
+    return mesh
+
+
+def test_distances_are_those_of_the_surface(tmp_path):
+    """A fine mesh of the paraboloid; facets of 0.32 m sag h2 / 8 R = 7e-4 m below it."""
+    exact = make_quadric("paraboloid", 28, 10)
+    path = tmp_path / "p.stl"
+    write_surface(path, exact.evaluate_height)
+    target = make_target(str(path), 28.0, 10.0)
+    rng = np.random.default_rng(2)
+    x, y = rng.uniform(-13, 13, (2, 300))
+    foot = np.column_stack([x, y, exact.evaluate_height(x, y)])
+    normals = exact.find_normals(x, y)
+    offset = rng.uniform(-2, 2, 300)
+    closest, found = target.find_closest(foot + offset[:, None] * normals)
+    distance = np.einsum("ij,ij->i", found, foot + offset[:, None] * normals - closest)
+    assert np.abs(distance - offset).max() < 2e-3
+    assert np.abs(found - normals).max() < 2e-2
+    assert target.section_lengths() == pytest.approx(exact.section_lengths(), rel=1e-4)
+    assert np.abs(target.evaluate_height(x, y) - foot[:, 2]).max() < 2e-3
+
+
+@pytest.mark.parametrize("name", SHAPES)
+def test_sheets_follow_free_forms(tmp_path, name):
+    """rms <= 1e-3 span in paper mode; constraints 1e-9 in exact mode."""
+    write_surface(tmp_path / name, SHAPES[name])
+    target = make_target(str(tmp_path / name), 28.0, 10.0)
+    sheet = design_sheet("miura", target.section_lengths(), 15, 16, 60.0, 0)
+    soft = fold_sheet(sheet, target, "paper", FoldSettings())
+    assert soft.state == "ok" and soft.quality.rms_over_span <= 1e-3
+    true = fold_sheet(sheet, target, "exact", FoldSettings())
+    assert true.state == "ok", true.reason
+    assert true.shape.residuals["constraint_residual"] <= 1e-9
+    assert true.quality.max_over_span <= 1e-9
+
+
+def test_a_mesh_beside_the_origin_is_centred(tmp_path):
+    mesh = write_surface(tmp_path / "a.stl", SHAPES["dome.vtk"])
+    mesh.translate([100.0, -40.0, 3.0]).save(tmp_path / "b.stl")
+    one, two = (make_target(str(tmp_path / k), 28.0, 10.0) for k in ("a.stl", "b.stl"))
+    x, y = np.array([3.0, -9.0]), np.array([5.0, 2.0])
+    # binary STL is single precision: 100 m carries 4e-6 m
+    assert two.evaluate_height(x, y) - 3 == pytest.approx(one.evaluate_height(x, y), abs=1e-4)
+
+
+def _refuse(path, named):
+    with pytest.raises(InputError, match=named):
+        make_target(str(path), 28.0, 10.0)
+
+
+def test_missing_and_damaged_files_are_refused(tmp_path):
+    _refuse(tmp_path / "none.stl", "no such file")
+    (tmp_path / "empty.stl").write_bytes(b"")
+    _refuse(tmp_path / "empty.stl", "empty")
+    (tmp_path / "text.ply").write_text("this is not a mesh")
+    _refuse(tmp_path / "text.ply", "text.ply")
+    write_surface(tmp_path / "a.vtu", SHAPES["wave.vtu"])
+    whole = (tmp_path / "a.vtu").read_bytes()
+    (tmp_path / "cut.vtu").write_bytes(whole[: len(whole) // 2])
+    _refuse(tmp_path / "cut.vtu", "cut")
+
+
+def test_wrong_scale_is_refused_with_a_hint(tmp_path):
+    write_surface(tmp_path / "mm.stl", SHAPES["wave.vtu"], scale=1000.0)
+    _refuse(tmp_path / "mm.stl", "millimetres")
+    write_surface(tmp_path / "small.stl", SHAPES["wave.vtu"], span=20.0)
+    _refuse(tmp_path / "small.stl", "span of 28")
+
+
+def test_closed_doubled_and_holed_surfaces_are_refused(tmp_path):
+    pyvista.Sphere(radius=15.0).save(tmp_path / "ball.stl")
+    _refuse(tmp_path / "ball.stl", "closed")
+    mesh = write_surface(tmp_path / "a.stl", SHAPES["dome.vtk"])
+    (mesh + mesh.translate([0, 0, 2.0])).extract_surface(algorithm=None).save(tmp_path / "two.stl")
+    _refuse(tmp_path / "two.stl", "over itself")
+    centre = mesh.cell_centers().points
+    keep = np.hypot(centre[:, 0] - 5, centre[:, 1]) > 3
+    mesh.extract_cells(keep).extract_surface(algorithm=None).save(tmp_path / "hole.stl")
+    _refuse(tmp_path / "hole.stl", "no surface above")
