@@ -174,7 +174,8 @@ def _interpret_number(text: str, shown_as: str) -> tuple[str, Any]:
 
 
 def _parse_integer(text: str | None, default: int) -> int:
-    return int(text) if text is not None and re.fullmatch(r"[0-9]{1,9}", text) else default
+    plain = text is not None and len(text) < 10 and text.isascii() and text.isdigit()
+    return int(text) if plain else default
 
 
 def _read_shared_strings(package: Package) -> list[str]:

@@ -37,7 +37,7 @@ def read_thickness(path: str | Path, grid: PanelGrid, least: float, largest: flo
     header_row, columns = _find_header(rows, place)
     _check_units(rows, header_row, columns, place)
     thickness = np.full(grid.panel.size, np.nan)
-    seen: dict[int, str] = {}
+    seen: dict[int, Cell] = {}
     for row in sorted(row for row in rows if row > header_row + 1):
         cells = {name: rows[row].get(column) for name, column in columns.items()}
         if cells["panel"] is None and cells["thickness"] is None:
@@ -93,7 +93,7 @@ def _check_units(rows: Rows, header_row: int, columns: dict[str, int], place: st
 
 
 def _read_panel(
-    cell: Cell | None, row: int, grid: PanelGrid, seen: dict[int, str], place: str
+    cell: Cell | None, row: int, grid: PanelGrid, seen: dict[int, Cell], place: str
 ) -> int:
     if cell is None:
         raise InputError(f"{place}: row {row}: a thickness without a panel id: an id is due")
@@ -108,9 +108,9 @@ def _read_panel(
     if panel in seen:
         raise InputError(
             f"{place}: cell {cell.reference}: {panel}: the panel stands twice, first in "
-            f"{seen[panel]}"
+            f"{seen[panel].reference}"
         )
-    seen[panel] = cell.reference
+    seen[panel] = cell
     return panel
 
 
