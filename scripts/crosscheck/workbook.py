@@ -88,7 +88,8 @@ def _write_meshes(sheet: Worksheet, comparison: Mapping[str, Any], style: dict) 
                 error = abs(value - limit) / abs(limit) if limit else 0.0
                 sheet.write_row(row, 0, [name, entry["unit"], code, n], style["text"])
                 sheet.write_row(row, 4, [value, limit], style["number"])
-                sheet.write_row(row, 6, [100 * error, entry[f"{code}_order"]], style["percent"])
+                order = entry[f"{code}_order"]
+                sheet.write_row(row, 6, [100 * error, order or "-"], style["percent"])
                 row += 1
     sheet.set_column(0, 0, 38)
     sheet.set_column(1, 3, 12)

@@ -63,6 +63,14 @@ def test_a_difference_beyond_its_tolerance_fails(name, value, failed):
     assert not result["quantities"][failed]["pass"]
 
 
+def test_a_percentile_is_taken_from_the_finest_mesh():
+    result = compare(*build_codes(utilization_p99=[0.6, 0.72]), {})
+    entry = result["quantities"]["S2 utilization_p99"]
+    assert entry["primary"] == 0.72
+    assert entry["primary_order"] is None
+    assert entry["primary_mesh_error"] == pytest.approx(0.12 / 0.72)
+
+
 def test_tolerances_can_be_set_and_have_defaults():
     codes = build_codes(work_knm=[21.5, 21.5])
     assert not compare(*codes, {})["pass"]
