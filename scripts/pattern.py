@@ -4,6 +4,7 @@ from pathlib import Path
 
 from foldshell.folding.targets import make_target
 from foldshell.pattern.design import design_sheet
+from foldshell.pattern.drawings import draw_pattern, write_dxf, write_svg
 from foldshell.pattern.fold_format import write_fold
 from foldshell.study.errors import InputError, user_errors
 
@@ -20,8 +21,13 @@ def main(
     strip: int = 16,
     sector_angle_deg: float = 60.0,
     frames: int = 9,
+    dxf_path: str | Path | None = None,
+    svg_path: str | Path | None = None,
 ) -> None:
-    """Write crease_pattern.fold: flat pattern, rest state and `frames` folded states [m]."""
+    """Write crease_pattern.fold: flat pattern, rest state and `frames` folded states [m].
+
+    With `dxf_path` and `svg_path` the flat pattern as drawings [mm] too.
+    """
     try:
         target = make_target(surface, span_m, height_m)
         sheet = design_sheet(
@@ -31,6 +37,11 @@ def main(
         raise
     except ValueError as error:
         raise InputError(f"design {design}: {error}") from None
+    drawing = draw_pattern(sheet.flat, sheet.grid)
+    if dxf_path:
+        write_dxf(dxf_path, drawing)
+    if svg_path:
+        write_svg(svg_path, drawing)
     write_fold(fold_path, sheet, design)
 
 
@@ -39,5 +50,7 @@ if "snakemake" in globals():
         main(
             snakemake.output.fold,  # noqa: F821
             design=snakemake.wildcards.design,  # noqa: F821
+            dxf_path=snakemake.output.get("dxf"),  # noqa: F821
+            svg_path=snakemake.output.get("svg"),  # noqa: F821
             **snakemake.params,  # noqa: F821
         )

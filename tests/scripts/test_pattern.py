@@ -39,3 +39,9 @@ def test_bad_designs_are_refused_and_nothing_is_written(tmp_path, values, named)
     with pytest.raises(InputError, match=named):
         pattern.main(tmp_path / "a.fold", design="bad", **values)
     assert not list(tmp_path.iterdir())
+
+
+def test_drawings_on_request(tmp_path):
+    paths = {"dxf_path": tmp_path / "a.dxf", "svg_path": tmp_path / "a.svg"}
+    pattern.main(tmp_path / "a.fold", design="x", zigzag=5, strip=6, **paths)
+    assert all(path.stat().st_size > 1000 for path in paths.values())

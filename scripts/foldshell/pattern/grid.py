@@ -100,6 +100,13 @@ def split_quads(quads: np.ndarray, column: np.ndarray) -> np.ndarray:
     return np.stack([first, second], axis=1).reshape(-1, 3)
 
 
+def find_outline(grid: Grid) -> np.ndarray:
+    """Border vertices in counter-clockwise order."""
+    number = np.arange(grid.zigzags * grid.strips).reshape(grid.zigzags, grid.strips)
+    sides = [number[0, :-1], number[:-1, -1], number[-1, :0:-1], number[:0:-1, 0]]
+    return np.concatenate(sides)
+
+
 def _shorter_diagonals(quads: np.ndarray, column: np.ndarray) -> np.ndarray:
     even = (column % 2 == 0)[:, None]
     return np.where(even, quads[:, [1, 3]], quads[:, [0, 2]])

@@ -4,12 +4,15 @@ Panels are laid one after the other across shared edges; how far apart the copie
 then lie is the closure, 0 for a developable sheet (and, folding, for a rigidly foldable one).
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from foldshell.pattern.angles import measure_folds
-from foldshell.pattern.grid import Grid
+from foldshell.pattern.grid import Grid, find_outline
+from foldshell.pattern.sheet import Frame, Sheet
+
+RIGID = 1e-9  # gap between panels, of the sheet's size, up to which a path is called rigid
 
 
 @dataclass(frozen=True)
@@ -152,8 +155,7 @@ def find_overlap(flat: np.ndarray, grid: Grid) -> bool:
     one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     if (one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0] <= 0).any():
         return True
-    number = np.arange(grid.zigzags * grid.strips).reshape(grid.zigzags, grid.strips)
-    ring = np.concatenate([number[0, :-1], number[:-1, -1], number[-1, :0:-1], number[:0:-1, 0]])
+    ring = find_outline(grid)
     start, end = flat[ring, :2], flat[np.roll(ring, -1), :2]
 
     def side(p, q, r):
@@ -166,3 +168,21 @@ def find_overlap(flat: np.ndarray, grid: Grid) -> bool:
         side(start, end, s) * side(start, end, e) < 0
     )
     return bool(crosses.any())
+
+
+def describe_true_sheet(
+    sheet: Sheet, flat: np.ndarray, folded: np.ndarray, parts: np.ndarray
+) -> Sheet:
+    """Build the sheet of a folded design: its flat state, its path, its shape.
+
+    The rigid path is kept only if panels stay together on it, to RIGID of the sheet's size.
+    """
+    frames = [Frame("folded", folded)]
+    if sheet.kind not in ("smooth", "flat"):
+        states, closure = follow_path(folded, flat, sheet.grid, parts)
+        if closure <= RIGID * np.ptp(flat, axis=0).max():
+            frames = [
+                Frame(f"rigid path {part:.3f}", state)
+                for part, state in zip(parts, states, strict=True)
+            ] + frames
+    return replace(sheet, flat=flat, rest=folded, path=tuple(frames))

@@ -1,0 +1,58 @@
+"""Entry script of rule unfold."""
+
+import json
+
+import ezdxf
+import numpy as np
+import pytest
+
+import fold
+import pattern
+import unfold
+from foldshell.pattern.fold_format import read_fold
+from foldshell.study.errors import InputError
+from foldshell.study.files import read_arrays
+
+
+def _run(folder, mode):
+    pattern.main(folder / "a.fold", design="x", surface="hypar", zigzag=8, strip=9)
+    fold.main(
+        folder / "a.fold", folder / "f.npz", folder / "f.vtu", folder / "q.json",
+        design="x", surface="hypar", fold_mode=mode,
+    )  # fmt: skip
+    unfold.main(
+        folder / "a.fold", folder / "f.npz", folder / "t.fold", folder / "t.dxf",
+        folder / "t.svg", design="x",
+    )  # fmt: skip
+    return read_arrays(folder / "f.npz"), read_fold(folder / "t.fold")
+
+
+def test_rigid_pattern_and_path_are_written(tmp_path):
+    folded, sheet = _run(tmp_path, "rigid")
+    assert json.loads((tmp_path / "q.json").read_text())["state"] == "ok"
+    assert np.array_equal(sheet.flat[:, :2], folded["flat"][:, :2])
+    assert len(sheet.path) == 10 and sheet.path[-1].title == "folded"
+    assert np.ptp(sheet.path[0].vertices[:, 2]) < 1e-9  # starts flat
+    lengths = [
+        np.linalg.norm(np.diff(frame.vertices[sheet.grid.edges], axis=1), axis=-1)
+        for frame in sheet.path
+    ]
+    assert all(np.abs(one - lengths[0]).max() < 1e-9 for one in lengths)
+    assert len(ezdxf.readfile(tmp_path / "t.dxf").modelspace().query("LINE")) > 50
+
+
+def test_soft_sheet_has_no_rigid_path(tmp_path):
+    folded, sheet = _run(tmp_path, "paper")
+    assert [frame.title for frame in sheet.path] == ["folded"]
+    assert np.array_equal(sheet.path[0].vertices, folded["vertices"])
+
+
+def test_folded_sheet_of_another_design_is_refused(tmp_path):
+    _run(tmp_path, "paper")
+    pattern.main(tmp_path / "b.fold", design="y", zigzag=5, strip=6)
+    with pytest.raises(InputError, match="must be 30"):
+        unfold.main(
+            tmp_path / "b.fold", tmp_path / "f.npz", tmp_path / "u.fold", tmp_path / "u.dxf",
+            tmp_path / "u.svg", design="y",
+        )  # fmt: skip
+    assert not (tmp_path / "u.fold").exists()
