@@ -16,7 +16,7 @@ rule draw:
         lines=f"{RESULTS}/{{design}}/design_lines.vtu",
     params:
         **of_design("span_m"),
-        settings=lambda wildcards: of_stage("analyse")(wildcards) | of_stage("figures")(wildcards),
+        settings=lambda wildcards: of_stage("size")(wildcards) | of_stage("figures")(wildcards),
     conda:
         "../envs/foldshell.yaml"
     script:

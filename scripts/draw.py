@@ -27,7 +27,7 @@ def main(
 ) -> None:
     """Write design.vtu, design_lines.vtu and the PNG files of `pictures`, named as in `PICTURES`.
 
-    `settings` are the parameters of the stages `analyse` and `figures`; report_path is
+    `settings` are the parameters of the stages `size` and `figures`; report_path is
     final.json.
     """
     state = read_state(
@@ -35,7 +35,7 @@ def main(
     )
     material, sizing, figures = (settings[name] for name in ("material", "sizing", "figures"))
     elasticity = Elasticity(material["youngs_modulus"], material["poissons_ratio"])
-    write_design_vtu(vtu_path, state, elasticity)
+    write_design_vtu(vtu_path, state, elasticity, sizing["classes"])
     limits = Limits(sizing["utilization_max"], sizing["displacement_limit_span_over"])
     subject = make_subject(state, span_m, limits, elasticity)
     write_lines_vtu(lines_path, subject)

@@ -49,18 +49,23 @@ def colour_table(name: str) -> np.ndarray:
     return (colormaps[name](share)[:, :3] * 255).round().astype(np.uint8)
 
 
-def make_scale(values: np.ndarray, map_name: str = "viridis", zero: bool = False) -> ColourScale:
-    """Return a scale between round numbers that holds all finite values; `zero` starts at 0."""
+def make_scale(
+    values: np.ndarray, map_name: str = "viridis", zero: bool = False, least: float = 0.0
+) -> ColourScale:
+    """Return a scale between round numbers that holds all finite values; `zero` starts at 0.
+
+    Its range is `least` or more, so that rounding errors about 0 do not look like a field.
+    """
     finite = values[np.isfinite(values)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
     low = min(low, 0.0) if zero else low
+    high = max(high, low + least)
     if high - low <= 1e-9 * max(abs(high), abs(low), 1e-300):
         margin = 0.5 * abs(high) or 0.5
         low, high = (low if zero else low - margin), high + margin
     step = round_step((high - low) / 8)
-    return ColourScale(
-        math.floor(low / step + 1e-9) * step, math.ceil(high / step - 1e-9) * step, map_name
-    )
+    low, high = math.floor(low / step + 1e-9) * step, math.ceil(high / step - 1e-9) * step
+    return ColourScale(low, high, map_name)
 
 
 def make_limit_scale(values: np.ndarray, limit: float) -> ColourScale:
@@ -81,7 +86,7 @@ def find_ticks(low: float, high: float, count: int = 6) -> list[float]:
     """Return round values in [low, high], about `count` of them."""
     step = round_step((high - low) / count)
     first, last = math.ceil(low / step - 1e-9), math.floor(high / step + 1e-9)
-    return [round(k * step, 12) for k in range(first, last + 1)]
+    return [float(f"{k * step:.12g}") for k in range(first, last + 1)]
 
 
 def format_tick(value: float, step: float) -> str:

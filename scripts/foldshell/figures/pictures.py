@@ -22,6 +22,9 @@ from foldshell.figures.render import render_scenes
 DISPLACED_SHARE = 0.06
 """The largest displacement is drawn about this share of the span long."""
 
+PLANARITY_RANGE_MIN = 0.01
+"""Least range of the colours of planarity, %."""
+
 
 def draw_design(
     subject: Subject, size: tuple[int, int], names: Sequence[str]
@@ -110,7 +113,7 @@ def draft_planarity(subject: Subject) -> Draft:
     values = 100 * state.folded["planarity"]
     facts = f"at most {values.max():.2f} %, mean {values.mean():.2f} % (0: panel is planar)"
     quantity = "distance of diagonals / their mean length [%]"
-    scale = make_scale(values, zero=True)
+    scale = make_scale(values, zero=True, least=PLANARITY_RANGE_MIN)
     return draft_field(subject, "Planarity", facts, quantity, values[state.cell_panel], scale)
 
 

@@ -1,0 +1,100 @@
+"""design.vtu and design_lines.vtu hold the fields, cell by cell."""
+
+import meshio
+import numpy as np
+
+from foldshell.exchange.design_vtu import write_design_vtu, write_lines_vtu
+from foldshell.figures.drafts import Elasticity, Limits, make_subject
+from unit.figures.figure_cases import make_state
+
+ELASTICITY = Elasticity(31e6, 0.2)
+
+
+def read(path):
+    """Return points, cells and fields of a VTU with one cell block."""
+    grid = meshio.read(path)
+    assert len(grid.cells) == 1
+    fields = {name: values[0] for name, values in grid.cell_data.items()}
+    return grid.points, grid.cells[0].data, fields, grid.point_data
+
+
+def test_fields_stand_in_their_cells(tmp_path):
+    """Thickness of each cell is its panel's; displacement at each node is the known field."""
+    state = make_state(tmp_path)
+    write_design_vtu(tmp_path / "design.vtu", state, ELASTICITY, 3)
+    points, cells, fields, nodal = read(tmp_path / "design.vtu")
+    assert len(cells) == 2 * 20 * 2**2
+    assert np.array_equal(fields["thickness"], np.linspace(0.05, 0.15, 20)[fields["panel"]])
+    assert np.allclose(nodal["displacement"][:, 2], -1e-3 * points[:, 0] ** 2, atol=1e-15)
+    assert set(nodal["displacement_combination"]) == {4}
+    assert set(fields["governing_combination"]) == {2}
+    assert set(fields["force_combination"]) == {2}
+    assert set(fields["thickness_class"]) == {1, 2, 3}
+    assert (fields["class_thickness"] >= fields["thickness"] - 1e-12).all()
+    assert (fields["utilization"] == 0.4).all()
+    strip = np.isin(state.folded["strip"], (0, 5))
+    assert np.array_equal(nodal["supported"][: len(strip)] == 1, strip)
+
+
+def test_principal_forces_rebuild_the_tensor(tmp_path):
+    """n1 d1 d1 + n2 d2 d2 has the components nx, ny, nxy in the facet's axes."""
+    state = make_state(tmp_path, move=lambda x: 1e-3 * np.sin(x + x[:, [2, 0, 1]]))
+    write_design_vtu(tmp_path / "design.vtu", state, ELASTICITY)
+    points, cells, fields, _ = read(tmp_path / "design.vtu")
+    corner = points[cells]
+    normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    x, y = fields["axis_x"], np.cross(normal, fields["axis_x"])
+    tensor = sum(
+        fields[f"principal_{k}"][:, :, None] * fields[f"direction_{k}"][:, None, :] for k in (1, 2)
+    )
+    scale = np.abs(fields["n1"]).max()
+    for name, (a, b) in {"nx": (x, x), "ny": (y, y), "nxy": (x, y)}.items():
+        component = np.einsum("ca,cab,cb->c", a, tensor, b)
+        assert np.allclose(component, fields[name], atol=1e-9 * scale)
+    assert (fields["n1"] >= fields["n2"]).all()
+
+
+def test_unstable_design_keeps_what_there_is(tmp_path):
+    """Without displacement and utilization only geometry and thickness are written."""
+    state = make_state(tmp_path, utilization=None, move=lambda x: np.nan * x)
+    write_design_vtu(tmp_path / "design.vtu", state, ELASTICITY)
+    _, _, fields, nodal = read(tmp_path / "design.vtu")
+    assert set(fields) == {"panel", "thickness"}
+    assert set(nodal) == {"supported"}
+
+
+def test_same_state_same_bytes(tmp_path):
+    """The file depends on the fields alone."""
+    state = make_state(tmp_path)
+    for name in ("a.vtu", "b.vtu"):
+        write_design_vtu(tmp_path / name, state, ELASTICITY)
+    assert (tmp_path / "a.vtu").read_bytes() == (tmp_path / "b.vtu").read_bytes()
+
+
+def test_lines_carry_force_and_level(tmp_path):
+    """Stretched along x, shortened along y: kind 1 runs along x in tension, kind 2 along y."""
+    state = make_state(
+        tmp_path,
+        folded=False,
+        move=lambda x: np.column_stack([1e-3 * x[:, 0], -1e-3 * x[:, 1], 0 * x[:, 0]]),
+    )
+    subject = make_subject(state, 5.0, Limits(), ELASTICITY)
+    write_lines_vtu(tmp_path / "lines.vtu", subject)
+    points, cells, fields, _ = read(tmp_path / "lines.vtu")
+    step = points[cells[:, 1]] - points[cells[:, 0]]
+    first, second = fields["kind"] == 1, fields["kind"] == 2
+    assert first.sum() > 20
+    assert second.sum() > 20
+    assert np.abs(step[first][:, 1:]).max() < 1e-9
+    assert np.abs(step[second][:, [0, 2]]).max() < 1e-9
+    assert (fields["force"][first] > 0).all()
+    assert (fields["force"][second] < 0).all()
+
+
+def test_unstable_design_has_no_lines(tmp_path):
+    """The file is there, with no cell in it."""
+    state = make_state(tmp_path, utilization=None, move=lambda x: np.nan * x)
+    subject = make_subject(state, 5.0, Limits(), ELASTICITY)
+    write_lines_vtu(tmp_path / "lines.vtu", subject)
+    assert 'NumberOfCells="0"' in (tmp_path / "lines.vtu").read_text()

@@ -1,0 +1,176 @@
+"""Pictures: what is in them follows the fields, and nothing else."""
+
+import numpy as np
+import pytest
+from PIL import Image
+
+from foldshell.figures.camera import fit_camera
+from foldshell.figures.colours import ABOVE, COMPRESSION, TENSION
+from foldshell.figures.drafts import Elasticity, Limits, describe_verdict, make_subject
+from foldshell.figures.flow_pictures import draft_buckling, draft_force_lines, draft_isolines
+from foldshell.figures.layout import Caption, compose, load_font, save_png, view_size, wrap
+from foldshell.figures.pictures import (
+    draft_displacement,
+    draft_thickness,
+    draft_utilization,
+    draw_design,
+    exaggeration,
+)
+from foldshell.figures.render import Scene, render_scenes
+from unit.figures.figure_cases import make_state
+
+SIZE = (640, 480)
+LIMITS, ELASTICITY = Limits(1.0, 240.0), Elasticity(31e6, 0.2)
+
+
+def subject_of(folder, **options):
+    """Return a case as the subject of pictures."""
+    return make_subject(make_state(folder, **options), 5.0, LIMITS, ELASTICITY)
+
+
+def share_near(image, colour, distance=30):
+    """Share of pixels within a distance of a colour in each channel."""
+    near = np.abs(np.asarray(image).astype(int) - np.array(colour)).max(axis=-1) <= distance
+    return near.mean()
+
+
+def test_each_picture_shows_its_own_field(tmp_path):
+    """All seven are different from each other, and none is blank: ink on white in the view."""
+    pictures = draw_design(
+        subject_of(tmp_path),
+        SIZE,
+        ("thickness", "utilization", "displacement", "planarity", "force_lines", "isolines",
+         "buckling"),
+    )  # fmt: skip
+    top, bottom = round(0.165 * SIZE[1]), round(0.85 * SIZE[1])
+    views = {name: np.asarray(picture)[top:bottom] for name, picture in pictures.items()}
+    for name, view in views.items():
+        assert (view < 250).any(axis=-1).mean() > 0.1, name
+        for other in views:
+            assert other == name or (views[other] != view).any(axis=-1).mean() > 0.005
+
+
+def test_utilization_above_the_limit_is_red(tmp_path):
+    """0.9 everywhere leaves no red in the view, 1.1 everywhere makes the sheet red."""
+    found = {}
+    for value in (0.9, 1.1):
+        (tmp_path / str(value)).mkdir()
+        scene = draft_utilization(subject_of(tmp_path / str(value), utilization=value)).scene
+        camera = fit_camera(scene.points, 4 / 3)
+        found[value] = share_near(render_scenes([scene], [camera], (400, 300))[0], ABOVE, 60)
+    assert found[0.9] == 0
+    assert found[1.1] > 0.1
+
+
+def test_rendered_triangle_is_where_the_camera_projects_it():
+    """A red triangle covers the pixels that its projection covers, within its border's pixels."""
+    points = np.array([[0.0, 0, 0], [2, 0.3, 0.2], [0.4, 1.5, 0.6]])
+    camera = fit_camera(points, 1.0)
+    red = np.array([[220, 0, 0]], dtype=np.uint8)
+    image = render_scenes([Scene(points, np.array([[0, 1, 2]]), red)], [camera], (200, 200))[0]
+    a, b, c = (camera.project(points) * [1, -1] + 1) * 100
+    area = abs((b - a)[0] * (c - a)[1] - (b - a)[1] * (c - a)[0]) / 2
+    assert (image[..., 1] < 128).sum() == pytest.approx(area, rel=0.03)
+
+
+def test_second_scene_is_not_the_first_again():
+    """Scenes drawn in one window do not leak into each other."""
+    points = np.array([[0.0, 0, 0], [1, 0, 0], [0, 1, 0]])
+    scenes = [
+        Scene(points, np.array([[0, 1, 2]]), np.array([colour], dtype=np.uint8))
+        for colour in ((200, 0, 0), (0, 0, 200), (200, 0, 0))
+    ]
+    first, second, third = render_scenes(scenes, [fit_camera(points, 1.0)] * 3, (120, 120))
+    assert (first != second).any()
+    assert np.array_equal(first, third)
+
+
+def test_same_state_same_bytes(tmp_path):
+    """A picture is the same file when it is drawn again."""
+    subject = subject_of(tmp_path)
+    for name in ("a", "b"):
+        picture = draw_design(subject, SIZE, ("thickness",))["thickness"]
+        save_png(tmp_path / f"{name}.png", picture)
+    assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
+
+
+def test_displaced_shape_is_drawn_by_its_stated_factor(tmp_path):
+    """w = -1e-3 x2: points of the scene are nodes plus factor times that, and the words say so."""
+    subject = subject_of(tmp_path)
+    draft = draft_displacement(subject)
+    nodes = subject.state.cells.nodes
+    drop = 1e-3 * nodes[:, 0] ** 2
+    factor = exaggeration(np.column_stack([drop, 0 * drop, 0 * drop]), 5.0)
+    assert 0.03 * 5 < factor * drop.max() < 0.12 * 5
+    assert np.allclose(draft.scene.points[:, 2], nodes[:, 2] - factor * drop, atol=1e-12)
+    assert f"D2: at most {1e3 * drop.max():.1f} mm down" in draft.caption.lines[0]
+    assert f"drawn {factor:g} times" in draft.caption.lines[0]
+    assert "limit 20.8 mm" in draft.caption.lines[0]
+
+
+def test_tension_and_compression_have_their_colours(tmp_path):
+    """A flat sheet stretched along x and shortened along y: lines of both colours."""
+    subject = subject_of(
+        tmp_path,
+        folded=False,
+        move=lambda x: np.column_stack([1e-3 * x[:, 0], -1e-3 * x[:, 1], 0 * x[:, 0]]),
+    )
+    lines = {line.colour: 0 for line in draft_force_lines(subject).scene.lines}
+    for line in draft_force_lines(subject).scene.lines:
+        lines[line.colour] += len(line.points)
+        if line.colour in (TENSION, COMPRESSION) and len(line.points):
+            step = np.abs(line.points[:, 1] - line.points[:, 0])
+            across = 1 if line.colour == TENSION else 0
+            assert step[:, across].max() < 1e-9
+    assert lines[TENSION] > 20
+    assert lines[COMPRESSION] > 20
+
+
+def test_design_without_results_says_what_is_missing(tmp_path):
+    """An unstable design: thickness is drawn, the others say why they are empty."""
+    subject = subject_of(
+        tmp_path, utilization=None, move=lambda x: np.nan * x, verdict="unstable",
+        reason="buckling factor 0.7 of S1 is below 1", buckling_factor={"S1": None},
+    )  # fmt: skip
+    assert draft_utilization(subject).caption.lines[0] == "no utilization"
+    assert draft_displacement(subject).caption.lines[0] == "no displacement"
+    assert draft_isolines(subject).caption.lines[0] == "no utilization"
+    assert draft_buckling(subject).caption.lines[0] == "no buckling mode"
+    assert "no membrane forces" in draft_force_lines(subject).caption.lines[0]
+    for draft in (draft_thickness, draft_displacement):
+        assert draft(subject).caption.lines[-1] == (
+            "unstable after 4 analyses: buckling factor 0.7 of S1 is below 1"
+        )
+
+
+def test_buckling_mode_is_that_of_the_least_factor(tmp_path):
+    """S2 has the least factor, 2.0; the mode is scaled to 1, zero at supported nodes."""
+    subject = subject_of(tmp_path)
+    assert draft_buckling(subject).caption.lines[0].startswith("S2: buckling factor 2.00")
+    mode = subject.state.buckling_mode("S2")
+    assert np.linalg.norm(mode, axis=1).max() == pytest.approx(1)
+    vertices = np.unique(subject.state.shell["support_pairs"])
+    assert np.abs(mode[vertices]).max() == 0
+
+
+def test_long_words_are_broken_not_shrunk():
+    """Every line fits; no word is lost."""
+    font = load_font(20)
+    text = "every panel stands at the least thickness of 40 mm " * 4
+    lines = wrap(text, font, 300)
+    assert all(font.getlength(line) <= 300 for line in lines)
+    assert " ".join(lines) == text.strip()
+    assert describe_verdict({"verdict": "not_converged", "iteration": 29}) == (
+        "not converged after 30 analyses"
+    )
+
+
+def test_words_do_not_cover_the_view():
+    """The rendered view appears unchanged in the picture, but for the corner with the axes."""
+    view = np.random.default_rng(5).integers(0, 255, (*view_size(SIZE)[::-1], 3), dtype=np.uint8)
+    picture = compose(view, Caption("title", ("a", "b", "c"), "x [m]"), np.eye(3)[:, :2], SIZE)
+    assert isinstance(picture, Image.Image)
+    top = round(0.165 * SIZE[1])
+    inside = np.asarray(picture)[top : top + view.shape[0]]
+    corner = view.shape[1] // 4
+    assert np.array_equal(inside[:, corner:], view[:, corner:])
