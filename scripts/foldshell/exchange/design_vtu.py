@@ -1,7 +1,8 @@
 """design.vtu: the final fields of a design on its result cells, for ParaView and the like.
 
 Cell fields: panel, thickness [m], thickness_class (1, 2, ... in rising order) and class_thickness
-[m] for fabrication, utilization [-], utilization_panel_mean [-], governing_combination (1 for the first strength combination),
+[m] for fabrication, utilization [-], utilization_panel_mean [-], governing_combination (1 for the
+first strength combination),
 nx, ny, nxy [kN/m] in the facet's axes (axis_x; normal upward), principal forces n1 >= n2 [kN/m]
 with their unit directions, and principal_1, principal_2: direction times force. Point fields:
 displacement [m], supported. Membrane forces and displacement belong to the combinations whose
