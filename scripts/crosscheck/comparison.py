@@ -25,7 +25,7 @@ KINDS: dict[str, tuple[str, str]] = {
 
 NOT_EXTRAPOLATED = ("utilization_p99",)
 """A percentile of sampled peaks goes up and down from mesh to mesh (by 1 to 4 %): the finest
-mesh stands, and its distance from the coarser one is its mesh error."""
+mesh stands, and what extrapolation would add is its mesh error."""
 
 TOLERANCES = {
     "displacement": 0.05,
@@ -54,10 +54,14 @@ class Code:
     default_order: float
 
     def limit(self, combination: str, name: str) -> tuple[float, float | None]:
-        """The extrapolated value and the order used; the finest value where none is told."""
-        values = self.values[combination][name]
+        """The value that stands, and the order it was extrapolated with, None where it was not."""
         if name in NOT_EXTRAPOLATED:
-            return float(values[-1]), None
+            return float(self.values[combination][name][-1]), None
+        return self.extrapolate(combination, name)
+
+    def extrapolate(self, combination: str, name: str) -> tuple[float, float]:
+        """The extrapolated value and its order."""
+        values = self.values[combination][name]
         order = self.orders.get(name, self.default_order)
         order = measure_order(self.subdivisions, values, order)
         return extrapolate(self.subdivisions, values, order), order
@@ -114,14 +118,14 @@ def _compare_scalar(
         code.limit(combination, name) for code in (primary, independent)
     )
     entry = _judge(first, second, max(abs(first), abs(second)), allowed[kind], unit)
-    for code, label, limit, order in (
-        (primary, "primary", first, first_order),
-        (independent, "independent", second, second_order),
+    for code, label, order in (
+        (primary, "primary", first_order),
+        (independent, "independent", second_order),
     ):
         meshes = code.values[combination][name]
         entry[f"{label}_meshes"] = [float(value) for value in meshes]
         entry[f"{label}_order"] = order
-        aim = limit if order is not None or len(meshes) < 2 else meshes[-2]
+        aim = code.extrapolate(combination, name)[0]
         entry[f"{label}_mesh_error"] = compute_mesh_error(meshes[-1], aim)
     return entry
 

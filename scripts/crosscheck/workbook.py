@@ -12,85 +12,149 @@ from xlsxwriter.worksheet import Worksheet
 from crosscheck.reading import write_whole
 
 CREATED = datetime(2020, 1, 1)  # the same values give the same bytes
-COLUMNS = ("quantity", "unit", "primary", "independent", "difference", "tolerance", "result")
-UNITS = ("limit of the meshes", "", "in unit", "in unit", "%", "%", "")
-MESH_COLUMNS = ("quantity", "unit", "code", "mesh n", "value", "limit", "error", "order")
-MESH_UNITS = ("", "", "", "parts", "in unit", "in unit", "%", "-")
+COLUMNS = {
+    "combination": "",
+    "quantity": "",
+    "unit": "",
+    "primary": "in unit",
+    "independent": "in unit",
+    "difference": "%",
+    "tolerance": "%",
+    "result": "",
+    "mesh error, primary": "%",
+    "mesh error, independent": "%",
+}
+MESH_COLUMNS = {
+    "combination": "",
+    "quantity": "",
+    "unit": "",
+    "code": "",
+    "mesh n": "parts",
+    "value": "in unit",
+    "limit": "in unit",
+    "off the limit": "%",
+    "order": "-",
+}
+LABELS = {
+    "displacement_down_max_m": "largest downward displacement",
+    "displacement_max_m": "largest displacement",
+    "work_knm": "work of the loads",
+    "utilization_p99": "utilization, 99th percentile of area",
+    "utilization_panel_mean_max": "utilization, largest panel mean",
+    "buckling_factor": "buckling factor",
+    "reaction_x_kn": "sum of reactions along x",
+    "reaction_y_kn": "sum of reactions along y",
+    "reaction_z_kn": "sum of reactions along z",
+    "reaction_imbalance": "reactions + loads, relative",
+}
+NUMERIC = {
+    "number": "0.00000",
+    "percent": "0.00",
+    "small": "0.0E+00",
+    "count": "0",
+}
 
 
 def write_comparison(path: str | Path, design: str, comparison: Mapping[str, Any]) -> None:
-    """Write sheets `comparison` and `meshes`; failed rows are red."""
+    """Write sheets `comparison` and `meshes`; rows of failed quantities are red."""
     with write_whole(path) as temporary, Workbook(str(temporary)) as book:
         book.set_properties({"title": f"Cross-check of {design}", "created": CREATED})
         style = _build_styles(book)
         _write_comparison(book.add_worksheet("comparison"), design, comparison, style)
-        _write_meshes(book.add_worksheet("meshes"), comparison, style)
+        _write_meshes(book.add_worksheet("meshes"), design, comparison, style)
 
 
 def _build_styles(book: Workbook) -> dict[str, Format]:
     red = {"font_color": "#9C0006", "bg_color": "#FFC7CE"}
-    return {
+    style = {
         "title": book.add_format({"bold": True, "font_size": 13}),
-        "header": book.add_format({"bold": True, "bottom": 1, "bg_color": "#D9E1F2"}),
-        "units": book.add_format({"italic": True, "font_color": "#595959", "bottom": 1}),
         "text": book.add_format({}),
-        "number": book.add_format({"num_format": "0.00000"}),
-        "percent": book.add_format({"num_format": "0.00"}),
-        "small": book.add_format({"num_format": "0.0E+00"}),
         "text_failed": book.add_format(red),
-        "number_failed": book.add_format({**red, "num_format": "0.00000"}),
-        "percent_failed": book.add_format({**red, "num_format": "0.00"}),
-        "small_failed": book.add_format({**red, "num_format": "0.0E+00"}),
+        "result": book.add_format({"align": "center"}),
+        "result_failed": book.add_format({**red, "align": "center"}),
     }
+    header = {"bold": True, "bottom": 1, "bg_color": "#D9E1F2", "text_wrap": True, "valign": "top"}
+    units = {"italic": True, "font_color": "#595959", "bottom": 1}
+    for name, form in (("header", header), ("units", units)):
+        style[name] = book.add_format(form)
+        style[f"{name}_right"] = book.add_format({**form, "align": "right"})
+    for name, form in NUMERIC.items():
+        number = {"num_format": form, "align": "right"}
+        style[name] = book.add_format(number)
+        style[f"{name}_failed"] = book.add_format({**red, **number})
+    return style
 
 
-def _write_head(
-    sheet: Worksheet, row: int, columns: Sequence[str], units: Sequence[str], style: dict
-) -> int:
-    """Header and units row; returns the first row of data and freezes above it."""
-    sheet.write_row(row, 0, columns, style["header"])
-    sheet.write_row(row + 1, 0, units, style["units"])
-    sheet.freeze_panes(row + 2, 1)
-    return row + 2
+def _start_sheet(
+    sheet: Worksheet, title: str, columns: Mapping[str, str], widths: Sequence[float], style: dict
+) -> None:
+    """Title, header and units row, frozen above the first row of data; one page wide."""
+    sheet.write(0, 0, title, style["title"])
+    sheet.set_row(1, 32)
+    for k, (name, unit) in enumerate(columns.items()):
+        side = "_right" if unit else ""
+        sheet.write(1, k, name, style["header" + side])
+        sheet.write(2, k, unit, style["units" + side])
+    sheet.freeze_panes(3, 2)
+    for k, width in enumerate(widths):
+        sheet.set_column(k, k, width)
+    sheet.set_landscape()
+    sheet.set_paper(9)
+    sheet.fit_to_pages(1, 0)
+    sheet.repeat_rows(1, 2)
+
+
+def _name_quantity(key: str) -> tuple[str, str]:
+    """Combination and words of a key such as `S2 Th.II work_knm`."""
+    combination, name = key.rsplit(" ", 1)
+    return combination, LABELS.get(name, name)
 
 
 def _write_comparison(
     sheet: Worksheet, design: str, comparison: Mapping[str, Any], style: dict
 ) -> None:
     verdict = "passed" if comparison["pass"] else "failed"
-    sheet.write(0, 0, f"{design}: cross-check {verdict}", style["title"])
-    row = _write_head(sheet, 1, COLUMNS, UNITS, style)
-    for name, entry in comparison["quantities"].items():
+    widths = (12, 36, 6, 13, 13, 11, 11, 9, 12, 12)
+    _start_sheet(sheet, f"{design}: cross-check {verdict}", COLUMNS, widths, style)
+    row = 3
+    for key, entry in comparison["quantities"].items():
         end = "" if entry["pass"] else "_failed"
-        tight = "small" if entry["tolerance"] < 1e-3 else "percent"
-        value = "small" if "imbalance" in name else "number"
-        sheet.write(row, 0, name, style["text" + end])
-        sheet.write(row, 1, entry["unit"], style["text" + end])
-        sheet.write(row, 2, entry["primary"], style[value + end])
-        sheet.write(row, 3, entry["independent"], style[value + end])
-        sheet.write(row, 4, 100 * entry["relative_difference"], style[tight + end])
-        sheet.write(row, 5, 100 * entry["tolerance"], style[tight + end])
-        sheet.write(row, 6, "passed" if entry["pass"] else "failed", style["text" + end])
+        value = style[("small" if key.endswith("imbalance") else "number") + end]
+        tight = style[("small" if entry["tolerance"] < 1e-3 else "percent") + end]
+        text = style["text" + end]
+        sheet.write_row(row, 0, [*_name_quantity(key), entry["unit"]], text)
+        sheet.write_row(row, 3, [entry["primary"], entry["independent"]], value)
+        sheet.write_row(
+            row, 5, [100 * entry["relative_difference"], 100 * entry["tolerance"]], tight
+        )
+        sheet.write(row, 7, "passed" if entry["pass"] else "failed", style["result" + end])
+        for column, code in ((8, "primary"), (9, "independent")):
+            error = entry.get(f"{code}_mesh_error")
+            shown = "-" if error is None else 100 * error
+            sheet.write(row, column, shown, style["percent" + end])
         row += 1
-    sheet.set_column(0, 0, 38)
-    sheet.set_column(1, 1, 6)
-    sheet.set_column(2, 6, 13)
+    for k, key in enumerate(comparison["not_compared"]):
+        sheet.write(row + 1 + k, 0, f"not compared, given by one code only: {key}", style["text"])
 
 
-def _write_meshes(sheet: Worksheet, comparison: Mapping[str, Any], style: dict) -> None:
-    row = _write_head(sheet, 0, MESH_COLUMNS, MESH_UNITS, style)
-    for name, entry in comparison["quantities"].items():
+def _write_meshes(
+    sheet: Worksheet, design: str, comparison: Mapping[str, Any], style: dict
+) -> None:
+    widths = (12, 36, 6, 13, 9, 13, 13, 11, 9)
+    _start_sheet(sheet, f"{design}: values of each mesh", MESH_COLUMNS, widths, style)
+    row = 3
+    for key, entry in comparison["quantities"].items():
         for code in ("primary", "independent"):
             limit = entry[code]
             for n, value in zip(
                 comparison[f"{code}_subdivisions"], entry.get(f"{code}_meshes", []), strict=False
             ):
                 error = abs(value - limit) / abs(limit) if limit else 0.0
-                sheet.write_row(row, 0, [name, entry["unit"], code, n], style["text"])
-                sheet.write_row(row, 4, [value, limit], style["number"])
+                sheet.write_row(row, 0, [*_name_quantity(key), entry["unit"], code], style["text"])
+                sheet.write(row, 4, n, style["count"])
+                sheet.write_row(row, 5, [value, limit], style["number"])
                 order = entry[f"{code}_order"]
-                sheet.write_row(row, 6, [100 * error, order or "-"], style["percent"])
+                sheet.write_row(
+                    row, 7, [100 * error, "-" if order is None else order], style["percent"]
+                )
                 row += 1
-    sheet.set_column(0, 0, 38)
-    sheet.set_column(1, 3, 12)
-    sheet.set_column(4, 7, 13)

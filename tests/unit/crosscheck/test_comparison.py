@@ -68,7 +68,7 @@ def test_a_percentile_is_taken_from_the_finest_mesh():
     entry = result["quantities"]["S2 utilization_p99"]
     assert entry["primary"] == 0.72
     assert entry["primary_order"] is None
-    assert entry["primary_mesh_error"] == pytest.approx(0.12 / 0.72)
+    assert entry["primary_mesh_error"] == pytest.approx(0.04 / 0.76)  # 0.76 by order 2
 
 
 def test_tolerances_can_be_set_and_have_defaults():
@@ -95,18 +95,28 @@ def test_the_workbook_shows_every_quantity_and_marks_failures(tmp_path):
     assert book.sheetnames == ["comparison", "meshes"]
     sheet = book["comparison"]
     assert sheet["A1"].value == "arch_x: cross-check failed"
-    assert sheet.freeze_panes == "B4"
-    rows = {row[0].value: row for row in sheet.iter_rows(min_row=4)}
-    assert set(rows) == set(result["quantities"])
-    row = rows["S2 work_knm"]
-    assert [cell.value for cell in row[2:]] == [10.0, 20.0, pytest.approx(50.0), 5.0, "failed"]
-    assert row[0].fill.bgColor.rgb == row[0].fill.fgColor.rgb == "FFFFC7CE" or (
-        row[0].fill.fgColor.rgb == "FFFFC7CE"
-    )
-    assert rows["S2 utilization_p99"][0].fill.fill_type is None
-    meshes = list(book["meshes"].iter_rows(min_row=3, values_only=True))
+    assert sheet.freeze_panes == "C4"
+    assert [cell.value for cell in sheet[3]][3:7] == ["in unit", "in unit", "%", "%"]
+    rows = {(row[0].value, row[1].value): row for row in sheet.iter_rows(min_row=4)}
+    assert len(rows) == len(result["quantities"])
+    row = rows["S2", "work of the loads"]
+    shown = ["kNm", 10, 20, pytest.approx(50.0), 5, "failed", 0, 0]
+    assert [cell.value for cell in row[2:]] == shown
+    assert {cell.fill.fgColor.rgb for cell in row} == {"FFFFC7CE"}
+    for name, row in rows.items():
+        assert (row[0].fill.fill_type is None) == (name[1] != "work of the loads")
+    meshes = list(book["meshes"].iter_rows(min_row=4, values_only=True))
     assert len(meshes) == 3 * 4
-    assert meshes[0][:5] == ("S2 displacement_down_max_m", "m", "primary", 4, 0.1)
+    assert meshes[0][3:6] == ("primary", 4, 0.1)
+
+
+def test_what_is_not_compared_is_told_in_the_workbook(tmp_path):
+    primary, independent = build_codes()
+    result = compare(Code([4, 8], {"S2 Th.II": {"work_knm": [1.0, 1.0]}}, {}, 2.0), primary, {})
+    write_comparison(tmp_path / "c.xlsx", "x", result)
+    texts = [row[0] for row in openpyxl.load_workbook(tmp_path / "c.xlsx")["comparison"].values]
+    assert "not compared, given by one code only: S2 Th.II" in texts
+    assert independent.values
 
 
 def test_the_same_comparison_gives_the_same_bytes(tmp_path):
