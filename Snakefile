@@ -15,9 +15,14 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 os.environ.setdefault("OMP_NUM_THREADS", "1")
 sys.path.insert(0, str(Path(workflow.basedir) / "scripts"))
 
+from foldshell.study.config_file import read_config
 from foldshell.study.errors import user_errors
 from foldshell.study.load import load_study
 from foldshell.workbook.edits import keep_all_edited
+
+
+with user_errors():
+    read_config("config/config.yaml")
 
 
 configfile: "config/config.yaml"

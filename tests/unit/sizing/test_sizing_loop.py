@@ -1,0 +1,175 @@
+"""The sizing rule, its recovery from instability, and the verdicts of the loop."""
+
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from foldshell.sizing.criteria import IterationState, StopRule, judge_iteration
+from foldshell.sizing.rules import (
+    SizingLimits,
+    SizingState,
+    dead_band,
+    literal,
+    start_state,
+    thicken_all,
+)
+from foldshell.sizing.step import StepRule, propose_thickness
+
+LIMITS = SizingLimits(0.04, 1.0, 0.6, 1.0)
+STEP = StepRule("dead_band", 0.1, 1.5, LIMITS)
+STOP = StopRule(0.04, 1.0, 0.6, 1.0, 240, 10.0, 0.01, 30, "table3", "panel_mean")
+
+
+def state(utilization, thickness=0.1, **changes) -> SizingState:
+    used = np.asarray(utilization, float)
+    return replace(start_state(np.full(len(used), thickness), 0.1), utilization=used, **changes)
+
+
+def test_dead_band_grows_above_one_shrinks_below_the_band_and_keeps_between():
+    """Tsiamis et al. 2018, section Optimization: a percentage of the current thickness."""
+    new = dead_band(state([1.2, 1.0, 0.8, 0.6, 0.59]), LIMITS)
+    assert new.thickness == pytest.approx([0.11, 0.1, 0.1, 0.1, 0.09])
+
+
+def test_literal_rule_shrinks_inside_the_band_too():
+    new = literal(state([1.2, 0.8]), LIMITS)
+    assert new.thickness == pytest.approx([0.11, 0.09])
+
+
+def test_bounds_hold():
+    assert dead_band(state([0.1], 0.041), LIMITS).thickness.tolist() == [0.04]
+    assert dead_band(state([3.0], 0.95), LIMITS).thickness.tolist() == [1.0]
+
+
+def test_no_thinning_where_it_is_not_allowed():
+    new = dead_band(state([1.2, 0.1], thin=False), LIMITS)
+    assert new.thickness == pytest.approx([0.11, 0.1])
+
+
+def test_step_is_halved_after_three_changes_of_sign():
+    now = state([1.2])
+    steps = []
+    for utilization in (1.2, 0.5, 1.2, 0.5, 1.2, 0.5, 1.2):
+        now = replace(now, utilization=np.array([utilization]))
+        now = dead_band(now, LIMITS)
+        steps.append(float(now.step[0]))
+    assert steps == pytest.approx([0.1, 0.1, 0.1, 0.05, 0.05, 0.05, 0.025])
+
+
+def test_thicken_all_grows_by_a_step():
+    assert thicken_all(state([0.5, 9]), LIMITS, 0.1).thickness == pytest.approx([0.11, 0.11])
+
+
+def analysis(state="ok", displacement_met=True, factor=5.0):
+    return {
+        "state": state,
+        "reason": "a reason",
+        "buckling_factor": {"S1": factor, "D1": None},
+        "criteria": {"displacement_vertical_m": {"met": displacement_met}},
+    }
+
+
+def test_panels_do_not_thin_while_the_buckling_factor_is_low():
+    thickness, used = np.full(2, 0.1), np.array([1.2, 0.2])
+    free = propose_thickness(analysis(factor=1.6), thickness, used, {}, STEP)
+    held = propose_thickness(analysis(factor=1.4), thickness, used, {}, STEP)
+    assert free.thickness == pytest.approx([0.11, 0.09])
+    assert held.thickness == pytest.approx([0.11, 0.1])
+    assert "buckling factor" in held.note[1]
+
+
+def test_displacement_alone_thickens_everything():
+    thickness, used = np.full(2, 0.1), np.array([0.9, 0.2])
+    new = propose_thickness(analysis(displacement_met=False), thickness, used, {}, STEP)
+    assert new.thickness == pytest.approx([0.11, 0.11])
+    overstressed = np.array([1.1, 0.2])
+    new = propose_thickness(analysis(displacement_met=False), thickness, overstressed, {}, STEP)
+    assert new.thickness == pytest.approx([0.11, 0.1])
+
+
+def test_instability_thickens_from_the_last_stable_state_a_step_more_each_time():
+    stable = np.array([0.1, 0.2])
+    good = propose_thickness(analysis(), stable, np.array([0.5, 0.5]), {}, STEP)
+    assert good.thickness == pytest.approx([0.09, 0.18])
+    first = propose_thickness(analysis("unstable"), good.thickness, None, good.memory, STEP)
+    assert first.thickness == pytest.approx([0.11, 0.22])
+    second = propose_thickness(analysis("unstable"), first.thickness, None, first.memory, STEP)
+    assert second.thickness == pytest.approx([0.121, 0.242])
+    assert second.note == ("a reason", "a reason")
+
+
+def test_instability_at_the_very_start_thickens_what_there_is():
+    new = propose_thickness(analysis("unstable"), np.array([0.1]), None, {}, STEP)
+    again = propose_thickness(analysis("unstable"), new.thickness, None, new.memory, STEP)
+    assert new.thickness == pytest.approx([0.11])
+    assert again.thickness == pytest.approx([0.121])
+
+
+def iteration(**changes) -> IterationState:
+    base = IterationState(
+        iteration=3, state="ok", reason="", thickness=np.array([0.1, 0.2]),
+        utilization=np.array([0.7, 0.9]), displacement=0.05, span=28.0, volume=100.0,
+        previous_volume=100.5, previous_thickness=np.array([0.11, 0.2]), previous_quiet=0,
+    )  # fmt: skip
+    return replace(base, **changes)
+
+
+def test_table_3_is_met():
+    verdict = judge_iteration(iteration(), STOP)
+    assert verdict.verdict == "converged"
+    assert all(item["met"] for item in verdict.criteria.values())
+    assert verdict.criteria["displacement_vertical_m"]["limit"] == pytest.approx(28 / 240)
+
+
+@pytest.mark.parametrize(
+    ("changes", "verdict", "words"),
+    [
+        ({"utilization": np.array([0.7, 1.2])}, "continue", "1 of 2 panels: 1"),
+        ({"utilization": np.array([0.2, 0.3])}, "continue", "utilization_min 0.3 below 0.6"),
+        ({"displacement": 0.2}, "continue", "displacement_vertical_m 0.2 not below 0.117"),
+        ({"previous_volume": 111.0}, "continue", "volume_change_m3 11 not below 10"),
+        ({"volume": 5.0, "previous_volume": 5.2}, "continue", "volume_change_relative"),
+        ({"previous_volume": None}, "continue", "not known before the second analysis"),
+        ({"iteration": 30, "displacement": 0.2}, "not_converged", "30 iterations are used up"),
+        ({"state": "mechanism", "reason": "a hinge"}, "unstable", "a hinge"),
+        ({"state": "unstable", "reason": "factor 0.9"}, "continue", "factor 0.9"),
+        ({"state": "not_converged", "reason": "slow"}, "continue", "slow"),
+        (
+            {"state": "unstable", "reason": "factor 0.9", "iteration": 30},
+            "unstable",
+            "30 iterations",
+        ),
+        (
+            {"state": "unstable", "reason": "factor 0.9", "thickness": np.ones(2)},
+            "unstable",
+            "largest thickness of 1000 mm",
+        ),
+        (
+            {"utilization": np.array([0.2, 0.3]), "thickness": np.full(2, 0.04)},
+            "at_minimum_thickness",
+            "least thickness of 40 mm",
+        ),
+        (
+            {"utilization": np.array([0.2, 1.3]), "previous_thickness": np.array([0.1, 0.2])},
+            "not_converged",
+            "no panel changes any more",
+        ),
+    ],
+)
+def test_verdicts(changes, verdict, words):
+    found = judge_iteration(iteration(**changes), STOP)
+    assert found.verdict == verdict
+    assert words in found.reason
+
+
+def test_stationary_asks_for_three_quiet_iterations():
+    rule = replace(STOP, stop="stationary")
+    quiet, verdicts = 0, []
+    for number in range(4):
+        found = judge_iteration(iteration(iteration=number, previous_quiet=quiet), rule)
+        quiet = found.quiet
+        verdicts.append(found.verdict)
+    assert verdicts == ["continue", "continue", "converged", "converged"]
+    loud = judge_iteration(iteration(previous_volume=105.0, previous_quiet=2), rule)
+    assert loud.verdict == "continue" and loud.quiet == 0

@@ -1,0 +1,217 @@
+"""A tiny study by Snakemake: results, reruns, hand edits, kills, errors."""
+
+import json
+import os
+import re
+import shutil
+
+import openpyxl
+import pytest
+from study_runner import (
+    DESIGNS,
+    copy_code,
+    hashes,
+    make_study,
+    run,
+    run_and_kill,
+    times,
+)
+
+TARGET = "results/summary.csv"
+
+
+@pytest.fixture(scope="module")
+def code(tmp_path_factory):
+    """Return a copy of the workflow's code."""
+    return copy_code(tmp_path_factory.mktemp("code"))
+
+
+@pytest.fixture(scope="module")
+def finished(code, tmp_path_factory):
+    """Return the folder of a tiny study that has run undisturbed."""
+    folder = make_study(tmp_path_factory.mktemp("study"))
+    done = run(code, folder, TARGET)
+    assert done.returncode == 0, done.stderr[-3000:]
+    return folder
+
+
+@pytest.fixture
+def copied(finished, tmp_path):
+    """Return a copy of the finished study, times of files kept, to disturb."""
+    folder = tmp_path / "copy"
+    shutil.copytree(finished, folder, symlinks=True, copy_function=shutil.copy2)
+    return folder
+
+
+def last_iteration(folder, design):
+    return json.loads((folder / f"results/{design}/sizing/final.json").read_text())
+
+
+def edit(path, panel, thickness):
+    """Type a thickness into a workbook, as a person would."""
+    book = openpyxl.load_workbook(path)
+    sheet = book["thickness"]
+    for row in sheet.iter_rows(min_row=3):
+        if row[0].value == panel:
+            row[3].value = thickness
+    book.save(path)
+
+
+def test_every_design_ends_with_a_verdict_and_a_cross_check(finished):
+    header, *rows = (finished / TARGET).read_text().splitlines()
+    assert header.startswith("design,tags,pattern,surface,span_m")
+    assert [row.split(",")[0] for row in rows] == ["tiny-dome", "tiny-saddle"]
+    for design in ("tiny-dome", "tiny-saddle"):
+        last = last_iteration(finished, design)
+        assert last["verdict"] in ("converged", "not_converged", "at_minimum_thickness")
+        assert last["reaction_imbalance"] < 1e-6
+        comparison = finished / f"results/{design}/crosscheck/comparison.json"
+        assert isinstance(json.loads(comparison.read_text())["pass"], bool)
+
+
+def test_each_iteration_reads_the_workbook_that_the_one_before_wrote(finished):
+    loop = finished / "results/tiny-dome/sizing"
+    folders = sorted(path.name for path in loop.iterdir() if path.is_dir())
+    assert folders == [f"{number:02d}" for number in range(len(folders))]
+    assert len(folders) > 2
+    volumes = [
+        json.loads((loop / name / "analysis.json").read_text())["volume_m3"] for name in folders
+    ]
+    assert len(set(volumes)) > 2
+
+
+def test_a_second_start_has_nothing_to_do(code, copied):
+    done = run(code, copied, TARGET)
+    assert done.returncode == 0
+    assert "Nothing to be done" in done.stdout + done.stderr
+
+
+def test_the_same_study_from_scratch_gives_the_same_bytes(code, finished, tmp_path):
+    folder = make_study(tmp_path / "again")
+    assert run(code, folder, TARGET).returncode == 0
+    for pattern in ("results/summary.*", "results/*/sizing/*/*.xlsx", "results/*/sizing/*/*.npz"):
+        assert hashes(folder, pattern) == hashes(finished, pattern)
+    assert hashes(folder, "results/*/design.xlsx") == hashes(finished, "results/*/design.xlsx")
+
+
+def test_a_hand_edit_redoes_what_follows_and_only_that(code, copied):
+    loop = copied / "results/tiny-dome/sizing"
+    before = times(copied, "results/**/*.*")
+    edit(loop / "01/thickness.xlsx", 3, 0.123)
+    assert run(code, copied, TARGET).returncode == 0
+    after = times(copied, "results/**/*.*")
+    changed = {name for name in after if before.get(name) != after[name]}
+    assert not any("tiny-saddle" in name for name in changed)
+    assert not any("tiny-dome/sizing/00" in name for name in changed)
+    assert not any(
+        name.startswith(("results/tiny-dome/folded", "results/tiny-dome/shell")) for name in changed
+    )
+    assert "results/tiny-dome/sizing/01/analysis.json" in changed
+    assert "results/tiny-dome/sizing/02/thickness.xlsx" in changed
+    assert TARGET in changed
+    book = openpyxl.load_workbook(loop / "01/thickness.xlsx")
+    assert book["thickness"].cell(6, 4).value == 0.123
+    assert len(list((loop / "01").glob("edited-*.xlsx"))) == 1
+    history = (loop / "history.csv").read_text().splitlines()
+    assert ",edited," in history[2] and ",edited," not in history[1]
+
+
+def test_iterations_left_over_from_before_an_edit_are_removed(code, copied):
+    loop = copied / "results/tiny-dome/sizing"
+    count = last_iteration(copied, "tiny-dome")["iteration"] + 1
+    stale = loop / f"{count:02d}"
+    shutil.copytree(loop / f"{count - 1:02d}", stale)
+    edit(loop / "01/thickness.xlsx", 3, 0.123)
+    assert run(code, copied, TARGET).returncode == 0
+    count = last_iteration(copied, "tiny-dome")["iteration"] + 1
+    assert sorted(path.name for path in loop.glob("[0-9][0-9]")) == [
+        f"{number:02d}" for number in range(count)
+    ]
+
+
+@pytest.mark.parametrize("text", ["0,125", -0.1])
+def test_a_bad_edit_is_refused_with_its_cell_and_stops_no_other_design(code, copied, text):
+    workbook = copied / "results/tiny-dome/sizing/01/thickness.xlsx"
+    edit(workbook, 3, text)
+    edit(copied / "results/tiny-saddle/sizing/01/thickness.xlsx", 3, 0.09)
+    kept = workbook.read_bytes()
+    done = run(code, copied, TARGET)
+    output = done.stdout + done.stderr
+    assert done.returncode != 0
+    assert "thickness.xlsx: sheet thickness: cell D6" in output
+    assert workbook.read_bytes() == kept
+    saddle = json.loads((copied / "results/tiny-saddle/sizing/final.json").read_text())
+    assert saddle["volume_m3"] > 0
+    assert "results/tiny-saddle/sizing/01/analysis.json" in times(copied, "results/**/*.json")
+
+
+@pytest.mark.parametrize("victim", ["sizing/00/analysis.npz", "sizing/02/thickness.xlsx"])
+def test_a_killed_study_resumes_to_identical_results(code, finished, tmp_path, victim):
+    folder = make_study(tmp_path / "killed")
+    run_and_kill(code, folder, folder / "results/tiny-dome" / victim, TARGET)
+    assert not (folder / TARGET).exists()
+    assert run(code, folder, "--unlock").returncode == 0
+    done = run(code, folder, TARGET)
+    assert done.returncode == 0, done.stderr[-3000:]
+    for pattern in ("results/summary.*", "results/*/sizing/*/*.xlsx", "results/*/sizing/*/*.npz"):
+        assert hashes(folder, pattern) == hashes(finished, pattern)
+
+
+def test_an_edit_of_a_library_file_two_imports_deep_reruns_what_needs_it(code, copied):
+    """analyse imports shell.analysis, which imports shell.stiffness, which imports element."""
+    element = code / "scripts/foldshell/shell/element.py"
+    before = element.read_text(), element.stat()
+    element.write_text(before[0] + "\n# a change\n")
+    try:
+        listing = run(code, copied, "-n", TARGET)
+    finally:
+        element.write_text(before[0])
+        os.utime(element, ns=(before[1].st_atime_ns, before[1].st_mtime_ns))
+    assert listing.returncode == 0, listing.stderr[-2000:]
+    table = listing.stdout + listing.stderr
+    rules = {
+        line.split()[0] for line in table.splitlines() if re.fullmatch(r"\w+ +\d+", line.strip())
+    }
+    assert {"analyse", "size", "refine"} <= rules
+    assert not {"pattern", "fold", "mesh", "start", "resize"} & rules
+
+
+BAD_SETTINGS = [
+    ({"sizing": {"stepp": 0.1}}, ["sizing", "stepp", "step"]),
+    ({"sizing": {"step": "ten"}}, ["sizing.step", "ten"]),
+    ({"material": {"poissons_ratio": 0.7}}, ["poissons_ratio", "0.7"]),
+]
+
+
+@pytest.mark.parametrize(("settings", "words"), BAD_SETTINGS)
+def test_a_bad_setting_is_one_sentence_before_any_job(code, tmp_path, settings, words):
+    folder = make_study(tmp_path / "bad", settings=settings)
+    done = run(code, folder, TARGET)
+    output = done.stdout + done.stderr
+    assert done.returncode != 0
+    assert not (folder / "results").exists()
+    assert "Traceback" not in output
+    sentence = [line for line in output.splitlines() if line.startswith("error: ")]
+    assert len(sentence) == 1
+    assert all(word in sentence[0] for word in words)
+
+
+BAD_DESIGNS = [
+    ("../evil\tparaboloid\t8\t2\t5\t6\tall\ttiny\n", ["../evil"]),
+    (DESIGNS + "tiny-dome\thypar\t8\t2\t5\t6\tall\ttiny\n", ["tiny-dome"]),
+    ("a\tparabolid\t8\t2\t5\t6\tall\ttiny\n", ["parabolid", "paraboloid"]),
+    ("a\tarch\t8\t2\t5\t6\tedges\ttiny\n", ["edges", "strip"]),
+    ("a\tarch\t-8\t2\t5\t6\tall\ttiny\n", ["span_m", "-8"]),
+]
+
+
+@pytest.mark.parametrize(("designs", "words"), BAD_DESIGNS)
+def test_a_bad_design_is_one_sentence_before_any_job(code, tmp_path, designs, words):
+    folder = make_study(tmp_path / "bad", designs)
+    done = run(code, folder, TARGET)
+    output = done.stdout + done.stderr
+    assert done.returncode != 0
+    assert not (folder / "results").exists()
+    sentence = [line for line in output.splitlines() if line.startswith("error: ")]
+    assert len(sentence) == 1 and "designs.tsv" in sentence[0]
+    assert all(word in sentence[0] for word in words)
