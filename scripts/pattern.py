@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from foldshell.folding.targets import make_target
+from foldshell.folding.targets import make_target, measure_turning
 from foldshell.pattern.design import design_sheet
 from foldshell.pattern.drawings import draw_pattern, write_dxf, write_svg
 from foldshell.pattern.fold_format import write_fold
@@ -30,9 +30,8 @@ def main(
     """
     try:
         target = make_target(surface, span_m, height_m)
-        sheet = design_sheet(
-            pattern, target.section_lengths(), zigzag, strip, sector_angle_deg, frames
-        )
+        lengths, turning = target.section_lengths(), measure_turning(target)
+        sheet = design_sheet(pattern, lengths, zigzag, strip, sector_angle_deg, frames, turning)
     except InputError:
         raise
     except ValueError as error:

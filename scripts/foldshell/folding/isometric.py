@@ -48,7 +48,7 @@ def fold_isometrically(sheet: Sheet, target, settings: FoldSettings) -> Shape:
 
 def _lay_planar(sheet: Sheet, target) -> np.ndarray:
     """Rest state, centred on the plan at the mean height of the target."""
-    centred = sheet.rest - 0.5 * (sheet.rest.min(axis=0) + sheet.rest.max(axis=0))
+    centred = sheet.placement - 0.5 * (sheet.placement.min(axis=0) + sheet.placement.max(axis=0))
     inside = np.clip(centred[:, :2], -target.span / 2, target.span / 2)
     height = target.evaluate_height(*inside.T).mean()
     return centred + np.array([0.0, 0.0, height])

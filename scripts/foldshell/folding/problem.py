@@ -54,10 +54,11 @@ def place_sheet(sheet: Sheet, target, attract: str) -> np.ndarray:
     Plan coordinates become arc lengths of the target's two central sections; heights above
     the attracted vertices are set off along the surface normal.
     """
-    rest = sheet.rest - 0.5 * (sheet.rest.min(axis=0) + sheet.rest.max(axis=0))
+    placed = sheet.placement
+    rest = placed - 0.5 * (placed.min(axis=0) + placed.max(axis=0))
     x = target.walk_section(0, rest[:, 0])
     y = target.walk_section(1, rest[:, 1])
-    height = sheet.rest[:, 2] - sheet.rest[attracted_vertices(sheet, attract), 2].mean()
+    height = placed[:, 2] - placed[attracted_vertices(sheet, attract), 2].mean()
     base = np.column_stack([x, y, target.evaluate_height(x, y)])
     return base + height[:, None] * target.find_normals(x, y)
 

@@ -2,6 +2,8 @@
 
 from pathlib import Path
 
+import numpy as np
+
 from foldshell.folding.mesh_target import SUFFIXES, MeshTarget, read_mesh_target
 from foldshell.folding.quadric import SURFACES, Quadric, make_quadric
 
@@ -18,4 +20,12 @@ def make_target(surface: str, span_m: float, height_m: float) -> Quadric | MeshT
     return make_quadric(surface, span_m, height_m)
 
 
-__all__ = ["SURFACES", "make_target"]
+def measure_turning(target: Quadric | MeshTarget) -> float:
+    """Angle [rad] by which the normal turns along the central section x = 0; a dome's is > 0."""
+    y = np.array([-0.5, 0.5]) * target.span
+    normals = target.find_normals(np.zeros(2), y)
+    tilt = np.arctan2(normals[:, 1], normals[:, 2])
+    return float(tilt[1] - tilt[0])
+
+
+__all__ = ["SURFACES", "make_target", "measure_turning"]

@@ -4,11 +4,12 @@ import math
 
 import numpy as np
 
+from foldshell.pattern.arc_miura import make_arc_sheet, size_arc_miura
 from foldshell.pattern.grid import build_grid, remove_creases
 from foldshell.pattern.miura import size_miura
 from foldshell.pattern.sheet import Sheet, make_miura_sheet
 
-PATTERNS = ("miura", "smooth", "flat")
+PATTERNS = ("miura", "arc_miura", "smooth", "flat")
 SECTOR_ANGLES_DEG = (46.0, 88.0)  # near 45 the rest state is flat, near 90 zig-zags vanish
 
 
@@ -19,11 +20,13 @@ def design_sheet(
     strips: int,
     sector_angle_deg: float,
     frames: int = 9,
+    turning: float = 0.0,
 ) -> Sheet:
     """Size a sheet whose rest state measures the target's central sections [m].
 
-    `pattern`: miura; smooth, a plain grid of panels to lay on the target; flat, the Miura
-    sheet before folding. `frames` states of the folding path are kept with it.
+    `pattern`: miura; arc_miura, curved along its strips by `turning` [rad]; smooth, a plain
+    grid of panels to lay on the target; flat, the Miura sheet before folding. `frames` states
+    of the folding path are kept with it.
     """
     if zigzags < 3 or strips < 3:
         raise ValueError(f"zigzag {zigzags}, strip {strips}: must be at least 3 each")
@@ -32,6 +35,11 @@ def design_sheet(
     low, high = SECTOR_ANGLES_DEG
     if not low <= sector_angle_deg <= high:
         raise ValueError(f"sector_angle_deg {sector_angle_deg}: must be {low:g} to {high:g}")
+    if pattern == "arc_miura":
+        arc, fold = size_arc_miura(
+            section_lengths, turning, math.radians(sector_angle_deg), zigzags, strips
+        )
+        return make_arc_sheet(arc, fold, frames)
     miura = size_miura(*section_lengths, math.radians(sector_angle_deg), zigzags, strips)
     if pattern == "miura":
         return make_miura_sheet(miura, frames)

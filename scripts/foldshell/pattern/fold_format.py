@@ -16,7 +16,7 @@ from foldshell.pattern.sheet import Frame, Sheet
 from foldshell.study.errors import InputError
 from foldshell.study.files import write_json
 
-REST_TITLE = "rest"
+REST_TITLE, UNROLLED_TITLE = "rest", "rest, unrolled"
 
 
 def write_fold(path: str | Path, sheet: Sheet, title: str) -> None:
@@ -28,6 +28,8 @@ def describe_sheet(sheet: Sheet, title: str) -> dict[str, Any]:
     """Build the FOLD dictionary of a sheet."""
     grid = sheet.grid
     rest = [] if sheet.kind in ("smooth", "flat") else [Frame(REST_TITLE, sheet.rest)]
+    if sheet.unrolled is not None:
+        rest.append(Frame(UNROLLED_TITLE, sheet.unrolled))
     return {
         "file_spec": 1.2,
         "file_creator": "foldshell",
@@ -90,14 +92,15 @@ def read_fold(path: str | Path) -> Sheet:
         Frame(str(frame.get("frame_title", k)), _read_vertices(path, frame, f"frame {k}", grid))
         for k, frame in enumerate(data.get("file_frames", []), start=1)
     )
-    rest = [frame.vertices for frame in frames if frame.title == REST_TITLE]
+    named = {frame.title: frame.vertices for frame in frames}
     return Sheet(
         kind=str(data.get("foldshell:kind", "miura")),
         grid=grid,
         flat=flat,
-        rest=rest[0] if rest else flat,
-        path=tuple(frame for frame in frames if frame.title != REST_TITLE),
+        rest=named.get(REST_TITLE, flat),
+        path=tuple(f for f in frames if f.title not in (REST_TITLE, UNROLLED_TITLE)),
         settings=data.get("foldshell:settings", {}),
+        unrolled=named.get(UNROLLED_TITLE),
     )
 
 

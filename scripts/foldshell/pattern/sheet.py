@@ -22,6 +22,8 @@ class Sheet:
     """A crease grid with its flat state and the rest state that folding starts from.
 
     `kind` is miura, a derivative's name, smooth or flat; `settings` is plain data to record.
+    `unrolled` is a rest state without its curvature, when it has any: x and y become arc
+    lengths on the target, z the distance from it.
     """
 
     kind: str
@@ -30,6 +32,12 @@ class Sheet:
     rest: np.ndarray
     path: tuple[Frame, ...] = ()
     settings: dict = field(default_factory=dict)
+    unrolled: np.ndarray | None = None
+
+    @property
+    def placement(self) -> np.ndarray:
+        """Coordinates (V, 3) [m] by which the sheet is laid on a target."""
+        return self.rest if self.unrolled is None else self.unrolled
 
 
 def make_miura_sheet(pattern: Miura, frames: int = 9) -> Sheet:

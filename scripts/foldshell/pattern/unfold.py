@@ -185,4 +185,4 @@ def describe_true_sheet(
                 Frame(f"rigid path {part:.3f}", state)
                 for part, state in zip(parts, states, strict=True)
             ] + frames
-    return replace(sheet, flat=flat, rest=folded, path=tuple(frames))
+    return replace(sheet, flat=flat, rest=folded, path=tuple(frames), unrolled=None)
