@@ -1,0 +1,84 @@
+"""Entry script of rule analyse."""
+
+import numpy as np
+import pytest
+
+import analyse
+import start
+from foldshell.study.errors import InputError
+from foldshell.study.files import hash_file, read_arrays, read_json
+from sizing_case import PANELS, SPAN, STRIP, ZIGZAG, stage, write_small_mesh
+
+KEYS = """
+    iteration verdict reason criteria utilization_max utilization_p99 utilization_panel_mean_max
+    panels_above_one displacement_vertical_max_m volume_m3 area_m2 buckling_factor
+    reaction_imbalance second_order_iterations dofs seconds edited workbook_sha256
+""".split()
+
+
+@pytest.fixture(scope="module")
+def mesh(tmp_path_factory):
+    return write_small_mesh(tmp_path_factory.mktemp("mesh") / "mesh.npz")
+
+
+def _start(folder, thickness=0.15):
+    book = folder / "00/thickness.xlsx"
+    start.main(
+        book, folder / "00/written.json", design="small", zigzag=ZIGZAG, strip=STRIP,
+        start_thickness=thickness, least_thickness=0.04, largest_thickness=1.0, settings_hash="",
+    )  # fmt: skip
+    return book
+
+
+def _analyse(mesh, book, iteration=0, previous=None, **sizing):
+    files = book.parent / "analysis.json", book.parent / "analysis.npz"
+    analyse.main(
+        mesh, book, *files, iteration=iteration, span_m=SPAN, zigzag=ZIGZAG, strip=STRIP,
+        settings=stage("analyse", **sizing), previous=previous,
+    )  # fmt: skip
+    return read_json(files[0]), read_arrays(files[1])
+
+
+def test_report_keeps_the_contract(tmp_path, mesh):
+    book = _start(tmp_path)
+    report, arrays = _analyse(mesh, book)
+    assert set(KEYS) <= set(report)
+    assert report["verdict"] == "continue" and report["iteration"] == 0
+    assert not report["edited"] and report["workbook_sha256"] == hash_file(book)
+    # One thickness everywhere: volume is exactly area times thickness.
+    assert report["volume_m3"] == pytest.approx(0.15 * report["area_m2"], rel=1e-12)
+    assert report["reaction_imbalance"] < 1e-6  # the contract's limit of balance
+    assert np.array_equal(arrays["thickness"], np.full(PANELS, 0.15))
+    worst = arrays["utilization_panel_mean"].max()
+    assert worst == report["utilization_panel_mean_max"]
+    assert "displacement" not in arrays  # large fields only where the loop ends
+
+
+def test_second_analysis_of_the_same_thickness_sees_no_change_of_volume(tmp_path, mesh):
+    book = _start(tmp_path)
+    _analyse(mesh, book)
+    previous = tuple(str(book.parent / f"analysis.{kind}") for kind in ("json", "npz"))
+    again = _start(tmp_path / "again")
+    report, arrays = _analyse(mesh, again, 1, previous)
+    assert report["criteria"]["volume_change_m3"]["value"] == 0
+    assert report["verdict"] == "not_converged"  # too thick to be used, and nothing changed
+    assert arrays["displacement"].shape[0] > 0
+
+
+def test_thinnest_sheet_ends_at_its_bound(tmp_path, mesh):
+    """The same 6 m sheet at its least thickness cannot reach 0.6: the third ending."""
+    book = _start(tmp_path, 0.15)
+    _analyse(mesh, book, least_thickness=0.15)
+    previous = tuple(str(book.parent / f"analysis.{kind}") for kind in ("json", "npz"))
+    report, _ = _analyse(mesh, _start(tmp_path / "b", 0.15), 1, previous, least_thickness=0.15)
+    assert report["verdict"] == "at_minimum_thickness"
+
+
+def test_damaged_workbook_leaves_no_result(tmp_path, mesh):
+    book = _start(tmp_path)
+    book.write_bytes(book.read_bytes()[:1000])
+    with pytest.raises(InputError, match=r"thickness\.xlsx"):
+        _analyse(mesh, book)
+    assert not (tmp_path / "00/analysis.json").exists()
+    # The edit is kept aside although it cannot be read.
+    assert len(list((tmp_path / "00").glob("edited-*.xlsx"))) == 1

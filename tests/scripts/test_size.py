@@ -1,0 +1,87 @@
+"""Entry script of rule size, after a whole loop through the other three entry scripts."""
+
+import csv
+
+import openpyxl
+import pytest
+
+import analyse
+import resize
+import size
+import start
+from foldshell.study.errors import InputError
+from foldshell.study.files import read_arrays, read_json
+from sizing_case import DESIGN, PANELS, SPAN, STRIP, ZIGZAG, stage, write_small_mesh
+
+PLACE = {"zigzag": ZIGZAG, "strip": STRIP}
+
+
+@pytest.fixture(scope="module")
+def loop(tmp_path_factory):
+    """Run the loop from 60 mm until a verdict ends it; return its folder and analyses."""
+    folder = tmp_path_factory.mktemp("design") / "sizing"
+    mesh = write_small_mesh(folder.parent / "mesh.npz")
+    start.main(
+        folder / "00/thickness.xlsx", folder / "00/written.json", design="small", **PLACE,
+        start_thickness=0.06, least_thickness=0.04, largest_thickness=1.0, settings_hash="",
+    )  # fmt: skip
+    found, memory = [], None
+    for number in range(31):
+        here, after = folder / f"{number:02d}", folder / f"{number + 1:02d}"
+        files = here / "analysis.json", here / "analysis.npz"
+        before = tuple(str(path) for path in found[-1]) if found else None
+        analyse.main(
+            mesh, here / "thickness.xlsx", *files, iteration=number, span_m=SPAN, **PLACE,
+            settings=stage("analyse"), previous=before,
+        )  # fmt: skip
+        found.append(files)
+        if read_json(files[0])["verdict"] != "continue":
+            break
+        resize.main(
+            *files, after / "thickness.xlsx", after / "memory.npz", after / "written.json",
+            design="small", **PLACE, settings=stage("resize"), settings_hash="",
+            previous_memory=memory,
+        )  # fmt: skip
+        memory = after / "memory.npz"
+    return folder, [files[0] for files in found]
+
+
+def _size(folder, analyses):
+    size.main(
+        analyses, folder / "history.csv", folder / "history.xlsx", folder.parent / "design.xlsx",
+        folder / "final.json", folder / "final.npz", design=DESIGN, settings=stage("size"),
+        settings_hash="0" * 12,
+    )  # fmt: skip
+
+
+def test_loop_ends_and_is_gathered(loop):
+    folder, analyses = loop
+    _size(folder, analyses)
+    last = read_json(analyses[-1])
+    assert last["verdict"] in ("converged", "at_minimum_thickness")
+    assert read_json(folder / "final.json") == last
+    with open(folder / "history.csv", newline="") as file:
+        rows = list(csv.DictReader(file))
+    assert [int(row["iteration"]) for row in rows] == list(range(len(analyses)))
+    assert float(rows[-1]["volume_m3"]) == last["volume_m3"]
+    final = read_arrays(folder / "final.npz")
+    assert final["thickness"].shape == (PANELS,) and "utilization_cell" in final
+    book = openpyxl.load_workbook(folder.parent / "design.xlsx", read_only=True)
+    assert {"summary", "panels", "history", "loads", "notes"} <= set(book.sheetnames)
+
+
+def test_iterations_left_over_are_removed(loop):
+    folder, analyses = loop
+    (folder / "57").mkdir()
+    (folder / "57/analysis.json").write_text("{}")
+    _size(folder, analyses)
+    assert not (folder / "57").exists() and analyses[-1].exists()
+
+
+def test_cut_off_analysis_is_named(loop, tmp_path):
+    folder, analyses = loop
+    broken = tmp_path / "analysis.json"
+    broken.write_text(analyses[0].read_text()[:40])
+    with pytest.raises(InputError, match=r"analysis\.json: not the analysis of iteration 0"):
+        _size(tmp_path, [broken])
+    assert not (tmp_path / "history.csv").exists()
