@@ -1,0 +1,127 @@
+"""Which strengths of the forces fold a sheet: quadrilateral panels against triangulated ones.
+
+The paper found that on quadrilaterals one force must govern, and that triangulated panels fold
+whatever the strengths (Tsiamis, Oliva and Calvano, 2018, 'Folding by physics simulation').
+"""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from foldshell.folding.constraints import require_planar
+from foldshell.folding.intersections import find_intersections
+from foldshell.folding.levenberg import minimise_terms
+from foldshell.folding.problem import (
+    Weights,
+    build_terms,
+    edge_lengths,
+    place_sheet,
+    reference_length,
+)
+from foldshell.folding.quality import count_flipped, measure_planarity, root_mean_square
+from foldshell.folding.settings import FoldSettings
+from foldshell.folding.terms import Stretch, Term
+from foldshell.pattern.angles import measure_folds
+from foldshell.pattern.sheet import Sheet
+
+PANELS = ("quadrilaterals", "triangles")
+REACHED = 1e-3  # rms distance over span
+SHEARED = 0.1  # strain of a panel's diagonal from which the panel is another one
+
+
+@dataclass(frozen=True)
+class Trial:
+    """One choice of strengths and what it led to; ratios are non-dimensional.
+
+    `panel` is the strength that keeps panels flat: planarity of quadrilaterals, the neutral
+    fold of triangles. `shear_max` is the strain of a diagonal. `folded` says that the target was
+    reached by the panels that were given, with every fold its own way.
+    """
+
+    panels: str
+    attraction: float
+    panel: float
+    rms_over_span: float
+    crease_strain_max: float
+    shear_max: float
+    planarity_max: float
+    flipped_folds: int
+    self_intersections: int
+    iterations: int
+    folded: bool
+
+
+def sweep_strengths(
+    sheet: Sheet,
+    target,
+    settings: FoldSettings,
+    attractions: Sequence[float],
+    panels: Sequence[float],
+) -> Iterator[Trial]:
+    """Fold once for every pair of strengths, on quadrilaterals and on triangles."""
+    for kind in PANELS:
+        for attraction in attractions:
+            for panel in panels:
+                yield try_strengths(sheet, target, settings, kind, attraction, panel)
+
+
+def try_strengths(
+    sheet: Sheet,
+    target,
+    settings: FoldSettings,
+    panels: str,
+    attraction: float,
+    panel: float,
+) -> Trial:
+    """Fold by the given strengths, stretch and hinges as in paper mode."""
+    terms = _build_terms(sheet, target, settings, panels, attraction, panel)
+    minimum = minimise_terms(
+        terms,
+        place_sheet(sheet, target, settings.attract),
+        max_iterations=settings.max_iterations,
+        cost_tolerance=settings.tolerance,
+        step_tolerance=1e-9 * target.span,
+    )
+    grid, vertices = sheet.grid, minimum.vertices
+    strain = np.abs(edge_lengths(vertices, grid.edges) / edge_lengths(sheet.flat, grid.edges) - 1)
+    shear = float(strain[grid.neutral].max())
+    residual, _ = terms[-2].evaluate(vertices)  # attraction
+    distances = residual * reference_length(sheet) / np.sqrt(attraction)
+    flipped = count_flipped(measure_folds(vertices, grid), grid)
+    cuts = len(find_intersections(vertices, grid.facets))
+    rms = root_mean_square(distances) / target.span
+    return Trial(
+        panels, float(attraction), float(panel), rms,
+        float(strain[: grid.neutral.start].max()), shear,
+        float(measure_planarity(vertices, grid.quads).max()), flipped, cuts,
+        minimum.iterations, rms <= REACHED and shear <= SHEARED and not flipped and not cuts,
+    )  # fmt: skip
+
+
+def _build_terms(
+    sheet: Sheet, target, settings: FoldSettings, panels: str, attraction: float, panel: float
+) -> list[Term]:
+    given = settings.weights
+    weights = Weights(
+        stretch=given.stretch,
+        hinge=given.hinge,
+        hinge_steep=given.hinge_steep,
+        neutral_fold=panel,
+        neutral_fold_steep=panel,
+        attraction=attraction,
+        plan_edge=given.plan_edge,
+        plan_edge_steep=given.plan_edge_steep,
+    )
+    stretch, creases, neutral, pull, edges = build_terms(sheet, target, settings.attract, weights)
+    if panels == "triangles":
+        return [stretch, creases, neutral, pull, edges]
+    grid = sheet.grid
+    sides = grid.edges[: grid.neutral.start]
+    return [
+        Stretch(sides, edge_lengths(sheet.flat, sides), given.stretch),
+        creases,
+        require_planar(grid, sheet.rest, reference_length(sheet), panel),
+        pull,
+        edges,
+    ]

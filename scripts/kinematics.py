@@ -1,0 +1,38 @@
+"""Rule kinematics: what a Miura sheet can do, as numbers for claims C1, C2, C3 and C14."""
+
+import math
+from pathlib import Path
+
+from foldshell.folding.kinematics_study import study_sheet, study_strengths, tabulate_ratios
+from foldshell.study.errors import user_errors
+from foldshell.study.files import write_json
+
+
+def main(
+    table_path: str | Path,
+    *,
+    sector_angle_deg: float = 60.0,
+    densities: tuple[tuple[int, int], ...] = ((7, 8), (9, 10), (11, 12)),
+    span_m: float = 28.0,
+    height_m: float = 10.0,
+    attractions: tuple[float, ...] = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0),
+    panel_strengths: tuple[float, ...] = (1e-4, 1e-2, 1.0, 100.0),
+) -> None:
+    """Write kinematics.json.
+
+    `ratios`: Poisson's ratios; `sheets`: mechanisms, isometry residuals and soft modes by
+    density; `strengths`: the sweep of force strengths of claim C3.
+    """
+    gamma = math.radians(sector_angle_deg)
+    table = {
+        "sector_angle_deg": sector_angle_deg,
+        "ratios": tabulate_ratios(gamma),
+        "sheets": [study_sheet(gamma, *density) for density in densities],
+        "strengths": study_strengths(span_m, height_m, gamma, attractions, panel_strengths),
+    }
+    write_json(table_path, table)
+
+
+if "snakemake" in globals():
+    with user_errors():
+        main(snakemake.output.table, **snakemake.params)  # noqa: F821

@@ -1,0 +1,15 @@
+"""Entry script of rule kinematics."""
+
+import json
+
+import kinematics
+
+
+def test_tables_are_written(tmp_path):
+    path = tmp_path / "kinematics.json"
+    kinematics.main(path, densities=((5, 6),), attractions=(100.0,), panel_strengths=(0.01,))
+    data = json.loads(path.read_text())
+    assert [row["in_plane"] < 0 for row in data["ratios"]] == [True] * 4
+    assert data["sheets"][0]["rigid_panels"]["freedoms"] == 1
+    assert {row["panels"] for row in data["strengths"]} == {"quadrilaterals", "triangles"}
+    assert len(data["strengths"]) == 4
