@@ -21,3 +21,30 @@ rule draw:
         "../envs/foldshell.yaml"
     script:
         "../scripts/draw.py"
+
+
+CHARTS = ["supports", "surface", "curvature", "density_zigzag", "density_strip", "axes"]
+SHEETS = ["all_thickness", "all_utilization"]
+
+
+rule study_figures:
+    message:
+        "figures over all designs"
+    input:
+        summary=rules.summary.output.csv,
+        designs=[
+            f"{RESULTS}/{name}/{file}"
+            for name in names_of_tag(SETTINGS.study)
+            for file in ("shell/mesh.npz", "folded/folded.npz", "sizing/final.npz")
+        ],
+        library=library("study_figures"),
+    output:
+        **{name: multiext(f"{RESULTS}/figures/{name}", ".png", ".svg") for name in CHARTS},
+        **{name: f"{RESULTS}/figures/{name}.png" for name in SHEETS},
+    params:
+        results=RESULTS,
+        settings=stage_parameters(SETTINGS, "size"),
+    conda:
+        "../envs/foldshell.yaml"
+    script:
+        "../scripts/study_figures.py"

@@ -68,7 +68,7 @@ def compose(
     _draw_axes(pen, (left + 75 * unit, base - 75 * unit), axes, unit)
     if caption.scale is not None:
         box = (left, base + round(62 * unit), round(0.60 * width), base + round(102 * unit))
-        _draw_bar(picture, box, caption, unit)
+        draw_bar(picture, box, caption, unit)
     else:
         for k, line in enumerate(wrap(caption.quantity, font, 0.58 * width)):
             pen.text((left, base + round((12 + 37 * k) * unit)), line, INK, font)
@@ -110,7 +110,7 @@ def wrap(text: str, font: ImageFont.FreeTypeFont, width: float) -> list[str]:
     return lines
 
 
-def _draw_bar(picture: Image.Image, box: tuple[int, ...], caption: Caption, unit: float) -> None:
+def draw_bar(picture: Image.Image, box: tuple[int, ...], caption: Caption, unit: float) -> None:
     """Draw the map, its ticks and, beyond a limit, the patch of what is above it."""
     left, top, right, bottom = box
     scale, pen = caption.scale, ImageDraw.Draw(picture)

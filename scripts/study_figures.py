@@ -1,0 +1,60 @@
+"""Rule study_figures: charts over all designs of the study, and all designs on one page."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+from foldshell.figures.charts import draw_axes_comparison, draw_comparison, save_figure
+from foldshell.figures.contact_sheet import draw_sheets, make_tile
+from foldshell.figures.drafts import Elasticity, Limits, make_subject
+from foldshell.figures.fields import cell_area
+from foldshell.figures.layout import save_png
+from foldshell.figures.state import read_state
+from foldshell.figures.study_data import COMPARISONS, read_summary, utilization_shares
+from foldshell.study.errors import user_errors
+
+FILES = ("shell/mesh.npz", "folded/folded.npz", "sizing/final.npz", "sizing/final.json")
+
+
+def main(
+    summary_path: str | Path,
+    results: str | Path,
+    charts: Mapping[str, Sequence[str | Path]],
+    sheets: Mapping[str, str | Path],
+    *,
+    settings: Mapping[str, Any],
+) -> None:
+    """Write the charts (`COMPARISONS` and `axes`; PNG or SVG by suffix) and the two sheets.
+
+    `results` has a folder a design; `settings` are the plain parameters of stage `size`.
+    """
+    sizing, material = settings["sizing"], settings["material"]
+    limits = Limits(sizing["utilization_max"], sizing["displacement_limit_span_over"])
+    elasticity = Elasticity(material["youngs_modulus"], material["poissons_ratio"])
+    designs, tiles = [], []
+    for design in read_summary(summary_path):
+        paths = [Path(results, design.name, file) for file in FILES]
+        state = read_state(design.name, *paths, settings["combinations"])
+        if state.utilization is not None:
+            share = utilization_shares(state.utilization, cell_area(state))
+            design = replace(design, share=share)
+        designs.append(design)
+        tiles.append(make_tile(make_subject(state, design.number["span_m"], limits, elasticity)))
+    for name, comparison in COMPARISONS.items():
+        figure = draw_comparison(designs, comparison, limits.displacement_limit_span_over)
+        save_figure(figure, charts[name])
+    save_figure(draw_axes_comparison(designs), charts["axes"])
+    for name, page in draw_sheets(tiles, limits.utilization_max).items():
+        save_png(sheets[name], page)
+
+
+if "snakemake" in globals():
+    with user_errors():
+        main(
+            snakemake.input.summary,  # noqa: F821
+            results=snakemake.params.results,  # noqa: F821
+            charts={name: snakemake.output[name] for name in (*COMPARISONS, "axes")},  # noqa: F821
+            sheets={name: snakemake.output[f"all_{name}"] for name in ("thickness", "utilization")},  # noqa: F821
+            settings=snakemake.params.settings,  # noqa: F821
+        )
