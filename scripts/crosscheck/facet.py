@@ -4,6 +4,7 @@ In a flat facet membrane (u, v) and plate (w, bx, by) are uncoupled, so each is 
 first from the insides of the blocks, then from the spokes. No drilling rotation exists inside.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -75,6 +76,23 @@ def condense_facets(element_matrices: np.ndarray, reference: ReferenceFacet) -> 
     middle = np.arange(reference.outline * dofs, kept * dofs)
     stiffness, spokes = condense(facet, border, middle)
     return Substructure(dofs, reference, blocks, spokes, stiffness)
+
+
+def join_parts(parts: Sequence[Substructure]) -> Substructure:
+    """One substructure from those of successive ranges of facets."""
+
+    def join(name: str) -> Condensation:
+        steps = [getattr(part, name) for part in parts]
+        return Condensation(
+            steps[0].boundary,
+            steps[0].interior,
+            np.concatenate([step.coupling for step in steps]),
+            np.concatenate([step.inverse for step in steps]),
+        )
+
+    stiffness = np.concatenate([part.stiffness for part in parts])
+    first = parts[0]
+    return Substructure(first.dofs, first.reference, join("blocks"), join("spokes"), stiffness)
 
 
 def reduce_load(part: Substructure, load: np.ndarray) -> np.ndarray:

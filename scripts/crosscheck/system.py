@@ -11,13 +11,20 @@ from crosscheck.element import (
     compute_shear_stiffness,
     integrate_elements,
 )
-from crosscheck.facet import Substructure, condense_facets, recover_facets, reduce_load
+from crosscheck.facet import (
+    Substructure,
+    condense_facets,
+    join_parts,
+    recover_facets,
+    reduce_load,
+)
 from crosscheck.frames import build_facet_axes, build_skeleton, transform_outline
 from crosscheck.frontal import Factor, factor_sum
 from crosscheck.mesh import GRADING, Mesh, build_mesh
 
 SHEAR_FACTOR = 100.0
 """Thin limit: shear deformation is that of a plate ten times thinner. 5/6 is the physical plate."""
+CHUNK = 256  # facets condensed at once, to bound the memory
 STABILITY = 0.03
 """Shear compliance added in proportion to (element size / thickness)^2, which vanishes with the
 mesh and keeps skewed elements from locking. Source: Lyly, Stenberg, Vihinen, Comput. Methods Appl.
@@ -115,17 +122,20 @@ def hold_edges(supported: np.ndarray):
 
 
 def compute_element_matrices(
-    grid: Discretisation, section: Section
+    grid: Discretisation, section: Section, part: slice = slice(None)
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Membrane (F, 3, m^2, 18, 18) and plate (F, 3, m^2, 27, 27) stiffness."""
-    plane = compute_plane_stiffness(grid.quadrature, section.poissons_ratio)
-    shear = compute_shear_stiffness(grid.coordinates, grid.quadrature)
-    thickness = section.thickness[:, None, None, None, None]
+    """Membrane (F, 3, m^2, 18, 18) and plate (F, 3, m^2, 27, 27) stiffness of some facets."""
+    whole = grid.quadrature
+    quadrature = Quadrature(
+        whole.shape, whole.gradient[part], whole.area[part], whole.inverse[part]
+    )
+    plane = compute_plane_stiffness(quadrature, section.poissons_ratio)
+    plate = compute_shear_stiffness(grid.coordinates[part], quadrature)
+    thickness = section.thickness[part, None, None, None, None]
     modulus = section.youngs_modulus
-    slender = grid.quadrature.area.sum(axis=-1)[..., None, None] / thickness**2
+    slender = quadrature.area.sum(axis=-1)[..., None, None] / thickness**2
     shear_factor = 1 / (1 / section.shear_factor + STABILITY * slender)
-    rigidity = shear_factor * modulus / (2 * (1 + section.poissons_ratio))
-    plate = rigidity * thickness * shear
+    plate *= shear_factor * modulus / (2 * (1 + section.poissons_ratio)) * thickness
     bending = modulus * thickness**3 / 12 * plane
     block = plate.reshape(*plate.shape[:-2], 9, 3, 9, 3)
     block[..., 1:, :, 1:] += bending.reshape(*plane.shape[:-2], 9, 2, 9, 2)
@@ -139,11 +149,18 @@ def build_system(
 
     Raises NotPositiveDefinite for a mechanism or a buckled state.
     """
-    matrices = compute_element_matrices(grid, section)
-    if geometric is not None:
-        matrices = tuple(a + b for a, b in zip(matrices, geometric, strict=True))
-    membrane, plate = (condense_facets(part, grid.mesh.reference) for part in matrices)
-    outline = turn_stiffness(join_fields(membrane.stiffness, plate.stiffness), grid.turn)
+    parts, outline = [], []
+    for start in range(0, len(grid.axes), CHUNK):
+        part = slice(start, start + CHUNK)
+        matrices = compute_element_matrices(grid, section, part)
+        if geometric is not None:
+            matrices = tuple(a + b[part] for a, b in zip(matrices, geometric, strict=True))
+        fields = [condense_facets(field, grid.mesh.reference) for field in matrices]
+        local = join_fields(fields[0].stiffness, fields[1].stiffness)
+        outline.append(turn_stiffness(local, grid.turn[part]))
+        parts.append(fields)
+    membrane, plate = (join_parts(fields) for fields in zip(*parts, strict=True))
+    outline = np.concatenate(outline)
     place = grid.equations.reshape(len(outline), -1)
     centres = grid.mesh.nodes[grid.mesh.facet_nodes].mean(axis=1)
     return System(grid, section, membrane, plate, factor_sum(outline, place, centres, grid.size))
