@@ -6,7 +6,7 @@ from foldshell.study.stages import choose_subdivisions, settings_hash, stage_par
 
 BY_NAME = {design.name: design for design in DESIGNS}
 PICTURES = ["thickness", "utilization", "displacement", "planarity"]
-PICTURES += ["force_lines", "isolines", "buckling"]
+PICTURES += ["strain", "force_lines", "isolines", "buckling"]
 # Relative in the project's own folder, so that a moved project does not run anew.
 SCRIPTS = "scripts" if Path.cwd() == Path(workflow.basedir) else f"{workflow.basedir}/scripts"
 

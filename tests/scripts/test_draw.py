@@ -8,8 +8,8 @@ import draw
 from foldshell.study.errors import InputError
 from unit.figures.figure_cases import COMBINATIONS, write_case
 
-NAMES = ("thickness", "utilization", "displacement", "planarity", "force_lines", "isolines",
-         "buckling")  # fmt: skip
+NAMES = ("thickness", "utilization", "displacement", "planarity", "strain",
+         "force_lines", "isolines", "buckling")  # fmt: skip
 SETTINGS = {
     "combinations": COMBINATIONS,
     "material": {"youngs_modulus": 31e6, "poissons_ratio": 0.2},
@@ -27,7 +27,7 @@ def run(folder, paths, names=NAMES):
 
 
 def test_all_pictures_have_the_size_asked_for(tmp_path):
-    """Seven PNG files of 480 x 360, and the two VTU files."""
+    """Eight PNG files of 480 x 360, and the two VTU files."""
     images = run(tmp_path, write_case(tmp_path))
     assert {image.shape for image in images.values()} == {(360, 480, 3)}
     assert (tmp_path / "design.vtu").stat().st_size > 1000

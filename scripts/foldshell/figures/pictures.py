@@ -22,8 +22,8 @@ from foldshell.figures.render import render_scenes
 DISPLACED_SHARE = 0.06
 """The largest displacement is drawn about this share of the span long."""
 
-PLANARITY_RANGE_MIN = 0.01
-"""Least range of the colours of planarity, %."""
+RATIO_RANGE_MIN = 0.01
+"""Least range of the colours of planarity and strain, %."""
 
 
 def draw_design(
@@ -113,8 +113,21 @@ def draft_planarity(subject: Subject) -> Draft:
     values = 100 * state.folded["planarity"]
     facts = f"at most {values.max():.2f} %, mean {values.mean():.2f} % (0: panel is planar)"
     quantity = "distance of diagonals / their mean length [%]"
-    scale = make_scale(values, zero=True, least=PLANARITY_RANGE_MIN)
+    scale = make_scale(values, zero=True, least=RATIO_RANGE_MIN)
     return draft_field(subject, "Planarity", facts, quantity, values[state.cell_panel], scale)
+
+
+def draft_strain(subject: Subject) -> Draft:
+    """Facets coloured by the largest strain of their sides in folding: what the paper must give."""
+    state = subject.state
+    if "strain" not in state.folded:
+        return draft_nothing(subject, "Folding strain", "no strain of the folding")
+    values = 100 * state.folded["strain"]
+    facts = f"at most {values.max():.2f} %, mean {values.mean():.2f} % (0: sides keep their length)"
+    quantity = "largest change of a facet's sides / flat length [%]"
+    scale = make_scale(values, "cividis", zero=True, least=RATIO_RANGE_MIN)
+    cells = np.repeat(values[state.mesh.facet], state.cells.order**2)
+    return draft_field(subject, "Folding strain", facts, quantity, cells, scale)
 
 
 def exaggeration(moved: np.ndarray, span: float) -> float:
@@ -128,6 +141,7 @@ PICTURES: dict[str, Callable[[Subject], Draft]] = {
     "utilization": draft_utilization,
     "displacement": draft_displacement,
     "planarity": draft_planarity,
+    "strain": draft_strain,
     "force_lines": draft_force_lines,
     "isolines": draft_isolines,
     "buckling": draft_buckling,

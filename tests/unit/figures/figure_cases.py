@@ -27,6 +27,7 @@ def sheet_arrays(folded=True):
         "zigzag": grid.zigzag,
         "strip": grid.strip,
         "planarity": measure_planarity(vertices, grid.quads),
+        "strain": np.linspace(0, 0.02, len(grid.facets)),
     }
 
 

@@ -11,6 +11,7 @@ from foldshell.figures.flow_pictures import draft_buckling, draft_force_lines, d
 from foldshell.figures.layout import Caption, compose, load_font, save_png, view_size, wrap
 from foldshell.figures.pictures import (
     draft_displacement,
+    draft_strain,
     draft_thickness,
     draft_utilization,
     draw_design,
@@ -35,12 +36,12 @@ def share_near(image, colour, distance=30):
 
 
 def test_each_picture_shows_its_own_field(tmp_path):
-    """All seven are different from each other, and none is blank: ink on white in the view."""
+    """All eight are different from each other, and none is blank: ink on white in the view."""
     pictures = draw_design(
         subject_of(tmp_path),
         SIZE,
-        ("thickness", "utilization", "displacement", "planarity", "force_lines", "isolines",
-         "buckling"),
+        ("thickness", "utilization", "displacement", "planarity", "strain",
+         "force_lines", "isolines", "buckling"),
     )  # fmt: skip
     top, bottom = round(0.165 * SIZE[1]), round(0.85 * SIZE[1])
     views = {name: np.asarray(picture)[top:bottom] for name, picture in pictures.items()}
@@ -174,3 +175,14 @@ def test_words_do_not_cover_the_view():
     inside = np.asarray(picture)[top : top + view.shape[0]]
     corner = view.shape[1] // 4
     assert np.array_equal(inside[:, corner:], view[:, corner:])
+
+
+def test_strain_stands_in_its_facet(tmp_path):
+    """Strain rises from facet to facet; the cells of a facet have its colour, others have not."""
+    subject = subject_of(tmp_path)
+    draft = draft_strain(subject)
+    scale = draft.caption.scale
+    facet = np.repeat(subject.state.mesh.facet, subject.state.cells.order**2)
+    expected = scale.colour(100 * np.linspace(0, 0.02, 40))[facet]
+    assert np.array_equal(draft.scene.colours, expected)
+    assert scale.high == pytest.approx(2.0)

@@ -1,0 +1,50 @@
+"""Rule study_figures: charts and pages from result folders."""
+
+import csv
+
+import numpy as np
+from PIL import Image
+
+import study_figures
+from foldshell.figures.study_data import COMPARISONS, NUMBERS
+from unit.figures.figure_cases import COMBINATIONS, write_case
+
+SETTINGS = {
+    "combinations": COMBINATIONS,
+    "material": {"youngs_modulus": 31e6, "poissons_ratio": 0.2},
+    "sizing": {"utilization_max": 1.0, "displacement_limit_span_over": 240},
+}
+FILES = ("shell/mesh.npz", "folded/folded.npz", "sizing/final.npz", "sizing/final.json")
+
+
+def write_results(folder, **designs):
+    """Write result folders by design name and the summary that lists them."""
+    rows = []
+    for name, options in designs.items():
+        (folder / name).mkdir()
+        for path, place in zip(write_case(folder / name, **options), FILES, strict=True):
+            (folder / name / place).parent.mkdir(exist_ok=True)
+            path.rename(folder / name / place)
+        rows.append({"design": name, "tags": "supports", "pattern": "miura", "surface": "arch",
+                     "support": name, "state": "converged",
+                     **dict.fromkeys(NUMBERS, 1.0)})  # fmt: skip
+    with (folder / "summary.csv").open("w", newline="") as stream:
+        writer = csv.DictWriter(stream, rows[0])
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+def test_all_figures_are_written(tmp_path):
+    """Also with a design without utilization, and for comparisons that nobody is in."""
+    write_results(tmp_path, all={}, strip={"utilization": None, "move": lambda x: np.nan * x})
+    charts = {n: [tmp_path / f"{n}.png", tmp_path / f"{n}.svg"] for n in (*COMPARISONS, "axes")}
+    sheets = {name: tmp_path / f"all_{name}.png" for name in ("thickness", "utilization")}
+    study_figures.main(tmp_path / "summary.csv", tmp_path, charts, sheets, settings=SETTINGS)
+    for paths in charts.values():
+        assert all(path.stat().st_size > 1000 for path in paths)
+    page = np.asarray(Image.open(sheets["thickness"]))
+    assert page.shape[1] == 6 * 400
+    tiles = page[90 + 58 : 90 + 58 + 270]
+    for k in range(6):
+        ink = (tiles[:, 400 * k : 400 * (k + 1)] < 250).any(axis=-1).mean()
+        assert ink > 0.1 if k < 2 else ink == 0

@@ -1,0 +1,152 @@
+"""Figures over all designs: sorting, histogram, and what is drawn for missing values."""
+
+import csv
+
+import numpy as np
+import pytest
+
+from foldshell.figures.charts import (
+    describe_states,
+    draw_axes_comparison,
+    draw_comparison,
+    save_figure,
+)
+from foldshell.figures.study_data import (
+    COMPARISONS,
+    NUMBERS,
+    StudyDesign,
+    pair_supports,
+    read_summary,
+    sort_into_columns,
+    utilization_edges,
+    utilization_shares,
+)
+from foldshell.study.errors import InputError
+
+
+def design(surface="arch", support="strip", height=10, strip=16, state="converged", **number):
+    """Return a design whose displacement is 10 times its height in mm."""
+    values = {"span_m": 28.0, "height_m": height, "zigzag": 15, "strip": strip,
+              "volume_per_area_m": 0.05, "utilization_mean": 0.4,
+              "displacement_vertical_max_m": 0.01 * height}  # fmt: skip
+    share = utilization_shares(np.array([0.35, 2.4]), np.array([3.0, 1.0]))
+    name = f"{surface}-28-{height}-15x{strip}-{support}"
+    tags = ("supports", "density", "curvature")
+    return StudyDesign(name, tags, "miura", surface, support, state, values | number, share)
+
+
+def test_histogram_adds_up_to_the_area():
+    """Shares of 1000 random cells add up to 1; cells beyond the last edge count in the last bin."""
+    rng = np.random.default_rng(6)
+    share = utilization_shares(rng.exponential(0.6, 1000), rng.uniform(0.1, 2, 1000))
+    assert share.sum() == pytest.approx(1, rel=1e-12)
+    assert len(share) == len(utilization_edges()) - 1
+    assert share[-1] > 0
+
+
+def test_cells_stand_in_their_bin():
+    """0.35 in [0.3, 0.4) with 3/4 of the area, 2.4 in the open last bin; 0.1 opens its own bin."""
+    share = utilization_shares(np.array([0.35, 2.4]), np.array([3.0, 1.0]))
+    assert share[3] == 0.75
+    assert share[-1] == 0.25
+    assert utilization_shares(np.array([0.1]), np.array([1.0]))[1] == 1
+
+
+def test_columns_and_series_keep_the_papers_order():
+    """Surfaces: paraboloid, hypar, arch; supports: all, zig-zag, strip, whatever comes first."""
+    designs = [design(s, e) for s in ("arch", "hypar", "paraboloid")
+               for e in ("strip", "all", "zigzag")]  # fmt: skip
+    columns = sort_into_columns(designs, COMPARISONS["supports"])
+    assert list(columns) == ["paraboloid", "hypar", "arch"]
+    assert all(list(c) == ["all", "zigzag", "strip"] for c in columns.values())
+    assert columns["hypar"]["zigzag"].name == "hypar-28-10-15x16-zigzag"
+
+
+def test_density_is_compared_within_one_support():
+    """Only strip-supported designs, by their number of polylines."""
+    designs = [design(strip=16), design(strip=32), design(strip=32, support="zigzag")]
+    columns = sort_into_columns(designs, COMPARISONS["density_strip"])
+    assert {k: list(v) for k, v in columns.items()} == {"arch": ["15x16", "15x32"]}
+
+
+def test_pairs_differ_in_the_support_alone():
+    """A design without its counterpart is in no pair."""
+    zigzag, strip = design(support="zigzag"), design()
+    found = pair_supports([strip, design(strip=32), zigzag, design(support="all")])
+    assert found == [(zigzag, strip)]
+
+
+def test_bars_show_the_values():
+    """Displacements of 60 and 100 mm are bars of that height; the limit is 28 m / 240."""
+    designs = [design(height=6), design(height=10)]
+    figure = draw_comparison(designs, COMPARISONS["curvature"])
+    axes = figure.axes[1]
+    assert [patch.get_height() for patch in axes.patches] == pytest.approx([60, 100])
+    limit = [line.get_ydata()[0] for line in axes.lines]
+    assert limit == pytest.approx([1e3 * 28 / 240] * 2)
+
+
+def test_design_without_a_result_is_named_by_its_state():
+    """No bar, but the word; the star is explained."""
+    missing = design(height=28, state="unstable", displacement_vertical_max_m=float("nan"))
+    figure = draw_comparison([design(), missing], COMPARISONS["curvature"])
+    assert len(figure.axes[1].patches) == 1
+    assert " unstable" in [text.get_text() for text in figure.axes[1].texts]
+    assert describe_states([design(), missing]) == "* unstable"
+    assert describe_states([design()]) is None
+
+
+def test_strong_axis_chart_has_a_row_a_pair():
+    """Two markers a pair at its two displacements."""
+    stiff = design(support="zigzag", displacement_vertical_max_m=0.03)
+    figure = draw_axes_comparison([stiff, design()])
+    first, second = figure.axes[0].lines
+    assert first.get_xdata() == pytest.approx([30])
+    assert second.get_xdata() == pytest.approx([100])
+
+
+@pytest.mark.parametrize("kind", ["png", "svg"])
+def test_figures_are_the_same_bytes_again(tmp_path, kind):
+    """No dates and no random names in the files."""
+    for name in "ab":
+        figure = draw_comparison([design(), design(height=6)], COMPARISONS["curvature"])
+        save_figure(figure, [tmp_path / f"{name}.{kind}"])
+    assert (tmp_path / f"a.{kind}").read_bytes() == (tmp_path / f"b.{kind}").read_bytes()
+
+
+def test_study_without_such_designs_says_so(tmp_path):
+    """The file that the rule promises is there, with a sentence in it."""
+    figure = draw_comparison([], COMPARISONS["supports"])
+    assert "no design of this comparison" in figure.texts[0].get_text()
+    save_figure(figure, [tmp_path / "empty.png"])
+    assert (tmp_path / "empty.png").stat().st_size > 1000
+
+
+def write_summary(path, **change):
+    """Write a summary of one row."""
+    row = {"design": "a", "tags": "x,supports", "pattern": "miura", "surface": "arch",
+           "support": "all", "state": "unstable",
+           **dict.fromkeys(NUMBERS, "1.5"), **change}  # fmt: skip
+    with path.open("w", newline="") as stream:
+        writer = csv.DictWriter(stream, row)
+        writer.writeheader()
+        writer.writerow(row)
+
+
+def test_summary_is_read_with_its_gaps(tmp_path):
+    """An empty cell is nan, tags are split at commas."""
+    write_summary(tmp_path / "summary.csv", volume_per_area_m="")
+    (found,) = read_summary(tmp_path / "summary.csv")
+    assert found.tags == ("x", "supports")
+    assert np.isnan(found.number["volume_per_area_m"])
+    assert found.number["span_m"] == 1.5
+
+
+def test_damaged_summary_is_named(tmp_path):
+    """File, design, column, value and what is allowed."""
+    write_summary(tmp_path / "summary.csv", span_m="wide")
+    with pytest.raises(InputError, match=r"summary\.csv: a, span_m: 'wide': must be a number"):
+        read_summary(tmp_path / "summary.csv")
+    (tmp_path / "summary.csv").write_text("design,tags\na,x\n")
+    with pytest.raises(InputError, match="no column"):
+        read_summary(tmp_path / "summary.csv")
