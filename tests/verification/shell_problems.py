@@ -54,10 +54,10 @@ def solve(mesh, fixed, forces, thickness, modulus, poissons_ratio, solver="cholm
     values = assemble_stiffness(
         model.operators, model.pattern, np.full(len(mesh.elements), thickness), modulus
     )
-    free = model.pattern.free
+    dofs = model.pattern.dofs
     displacement = np.zeros(mesh.dof_count)
     factor = factorise(model.pattern, values, solver)
-    displacement[free] = factor.solve(forces[free][:, None])[:, 0]
+    displacement[dofs] = factor.solve(forces[dofs][:, None])[:, 0]
     return Solved(mesh, displacement[: 3 * len(mesh.nodes)].reshape(-1, 3))
 
 

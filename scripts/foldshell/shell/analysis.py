@@ -1,7 +1,7 @@
 """The shell analysis of one thickness vector: what Karamba did in the paper's loop."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -12,7 +12,7 @@ from foldshell.shell.assembly import (
     translation_dofs,
 )
 from foldshell.shell.buckling import BucklingResult, find_buckling_factors
-from foldshell.shell.geometric import apply_geometric, assemble_geometric, geometric_operator
+from foldshell.shell.geometric import apply_geometric, assemble_geometric
 from foldshell.shell.linear_solver import Factor, NotPositiveDefiniteError, factorise
 from foldshell.shell.loads import Loads, combination_matrix, nodal_forces, surface_loads
 from foldshell.shell.material import Material
@@ -142,7 +142,7 @@ def analyse_shell(
         return AnalysisResult("unstable", reason, names, linear, linear, total, buckling)
     second = solution.second_order(linear, options)
     displacement = np.zeros_like(linear)
-    displacement[model.pattern.free] = second.displacement
+    displacement[model.pattern.dofs] = second.displacement
     worst = int(np.argmax(second.residual))
     reason = "" if second.converged else (
         f"second order of {names[worst]} stands at a relative change of "
@@ -162,49 +162,52 @@ class _Solution:
         self._modulus = material.youngs_modulus
         values = assemble_stiffness(model.operators, model.pattern, thickness, self._modulus)
         self._factor: Factor = factorise(model.pattern, values, solver)
-        self._geometric = geometric_operator(model.operators)
-        self._free = model.pattern.free
+        self._dofs = model.pattern.dofs
 
     def solve(self, forces: np.ndarray) -> np.ndarray:
         """Return first-order displacements (dofs, c)."""
         displacement = np.zeros_like(forces)
-        displacement[self._free] = self._factor.solve(forces[self._free])
+        displacement[self._dofs] = self._factor.solve(forces[self._dofs])
         return displacement
 
     def forces(self, displacement: np.ndarray) -> np.ndarray:
         return membrane_forces(self._model.operators, displacement, self._thickness, self._modulus)
 
     def buckling(self, linear_cases, factors, start) -> BucklingResult:
-        matrices = assemble_geometric(self._geometric, self.forces(linear_cases))
-        free, nodes = self._free, len(self._model.mesh.nodes)
+        matrices = assemble_geometric(self._model.operators, self.forces(linear_cases))
+        dofs, nodes = self._dofs, len(self._model.mesh.nodes)
+        moving = np.flatnonzero(dofs < 3 * nodes)
+        translations = dofs[moving]
 
         def apply_cases(vectors: np.ndarray) -> np.ndarray:
-            full = np.zeros((len(free), vectors.shape[1]))
-            full[free] = vectors
-            moved = full[: 3 * nodes].reshape(nodes, -1)
-            result = np.zeros((len(matrices), int(free.sum()), vectors.shape[1]))
-            translations = free[: 3 * nodes]
-            count = int(translations.sum())
+            full = np.zeros((3 * nodes, vectors.shape[1]))
+            full[translations] = vectors[moving]
+            moved = full.reshape(nodes, -1)
+            result = np.zeros((len(matrices), *vectors.shape))
             for case, matrix in enumerate(matrices):
-                image = (matrix @ moved).reshape(3 * nodes, -1)
-                result[case, :count] = image[translations]
+                result[case, moving] = (matrix @ moved).reshape(full.shape)[translations]
             return result
 
-        return find_buckling_factors(
-            self._factor.solve, apply_cases, factors, self._model.pattern.size, start
-        )
+        # modes are kept in ascending order of freedoms, the factor works in its own
+        place = np.argsort(dofs)
+        if start is not None:
+            own = np.empty_like(start, dtype=float)
+            own[place] = start
+            start = own
+        found = find_buckling_factors(self._factor.solve, apply_cases, factors, len(dofs), start)
+        return replace(found, modes=found.modes[place])
 
     def second_order(self, linear: np.ndarray, options: AnalysisOptions) -> SecondOrderResult:
-        free = self._free
+        dofs, operators = self._dofs, self._model.operators
 
         def correction(displacement: np.ndarray, _columns: np.ndarray) -> np.ndarray:
-            full = np.zeros((len(free), displacement.shape[1]))
-            full[free] = displacement
-            force = apply_geometric(self._geometric, self.forces(full), full)
-            return -self._factor.solve(force[free])
+            full = np.zeros((len(linear), displacement.shape[1]))
+            full[dofs] = displacement
+            force = apply_geometric(operators, self.forces(full), full)
+            return -self._factor.solve(force[dofs])
 
         return solve_second_order(
-            linear[free],
+            linear[dofs],
             correction,
             options.second_order_tolerance,
             options.second_order_iterations_max,
@@ -212,7 +215,7 @@ class _Solution:
 
 
 def _mechanism(model, names, loads, error: NotPositiveDefiniteError) -> AnalysisResult:
-    dof = int(np.flatnonzero(model.pattern.free)[error.dof])
+    dof = int(model.pattern.dofs[error.dof])
     nodes = len(model.mesh.nodes)
     node = dof // 3 if dof < 3 * nodes else None
     nothing = np.full(loads.shape, np.nan)

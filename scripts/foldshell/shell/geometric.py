@@ -2,87 +2,109 @@
 
 u^T K_g v = int N_ab d_a u . d_b v dA over all three displacement components, which is the part of
 the Green-Lagrange strain energy that is linear in N. It does not see a rigid translation.
+Slopes are taken along the two directions of the reference triangle, the same for all elements,
+and N is pulled back to them.
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from scipy.sparse import csr_array
 
 from foldshell.shell.reference import orthonormal_basis, reference_triangle, triangle_quadrature
 from foldshell.shell.stiffness import ShellOperators
-from foldshell.shell.stress import scatter
+from foldshell.shell.stress import gather_nodes
 
-CHUNK = 512
-"""Elements handled at once."""
+CHUNK = 64
+"""Elements handled at once, so that temporary arrays stay in cache."""
 
 
 @dataclass(frozen=True)
-class GeometricOperator:
-    """Slopes (E, Q, 2, n) of the Lagrange functions at quadrature points, psi (Q, m) there, and
-    the products of quadrature weights and element areas (E, Q) m2."""
+class GeometricTables:
+    """Tables of one order that integrate products of degree 3(p - 1) exactly.
 
-    operators: ShellOperators
+    `slope` (2Q, n) derivatives of the Lagrange functions at quadrature points, `psi` (Q, m) the
+    weighted orthonormal functions there; `product` (3m, n(n+1)/2) the integrals of an orthonormal
+    function times two derivatives: rr, ss, and rs with sr.
+    """
+
     slope: np.ndarray
     psi: np.ndarray
-    weight: np.ndarray
+    product: np.ndarray
 
 
-def geometric_operator(operators: ShellOperators) -> GeometricOperator:
-    """Tabulate slopes at points that integrate all products of degree 3(p - 1) exactly."""
-    order = operators.mesh.order
+@lru_cache(maxsize=8)
+def geometric_tables(order: int) -> GeometricTables:
+    """Tabulate the reference triangle of the given order."""
     points, weights = triangle_quadrature(3 * (order - 1))
     psi = orthonormal_basis(order - 1, points)
-    reference = np.einsum("qm,kmn->qkn", psi, reference_triangle(order).gradient)
-    slope = np.matmul(operators.geometry.inverse.transpose(0, 2, 1)[:, None], reference)
-    return GeometricOperator(operators, slope, psi, operators.geometry.area[:, None] * weights)
+    slope = np.einsum("qm,kmn->kqn", psi, reference_triangle(order).gradient)
+    weighted = psi * weights[:, None]
+    i, j = np.tril_indices(slope.shape[2])
+    r, s = slope
+    pairs = np.stack([r[:, i] * r[:, j], s[:, i] * s[:, j], r[:, i] * s[:, j] + s[:, i] * r[:, j]])
+    product = np.einsum("qm,kqp->kmp", weighted, pairs)
+    nodes = slope.shape[2]
+    return GeometricTables(slope.reshape(-1, nodes), weighted, product.reshape(-1, len(i)))
 
 
 def apply_geometric(
-    geometric: GeometricOperator, force: np.ndarray, displacement: np.ndarray
+    operators: ShellOperators, force: np.ndarray, displacement: np.ndarray
 ) -> np.ndarray:
     """Return K_g(N_c) u_c for each column c: N (E, 3, m, c) kN/m and u (dofs, c) to (dofs, c)."""
-    operators = geometric.operators
-    count, nodes = operators.mesh.elements.shape
-    columns = displacement.shape[1]
-    dofs = operators.dofs[:, : 3 * nodes]
-    element = np.empty((count, 3 * nodes, columns))
+    tables = geometric_tables(operators.mesh.order)
+    mesh, columns = operators.mesh, displacement.shape[1]
+    count, nodes = mesh.elements.shape
+    moved = displacement[: 3 * len(mesh.nodes)].reshape(len(mesh.nodes), -1)
+    pulled = _pull_back(operators, force)
+    element = np.empty((count, nodes, 3 * columns))
     for start in range(0, count, CHUNK):
         part = slice(start, start + CHUNK)
-        slope = geometric.slope[part]
-        size, points = slope.shape[:2]
-        flat = slope.reshape(size, points * 2, nodes)
-        local = displacement[dofs[part]].reshape(size, nodes, 3 * columns)
-        gradient = np.matmul(flat, local).reshape(size, points, 2, 3, columns)
-        at_points = np.einsum("qm,ecmk->eqck", geometric.psi, force[part], optimize=True)
-        at_points *= geometric.weight[part][:, :, None, None]
-        xx, yy, xy = (at_points[:, :, i, None] for i in range(3))
-        flow = np.stack(
-            [
-                xx * gradient[:, :, 0] + xy * gradient[:, :, 1],
-                xy * gradient[:, :, 0] + yy * gradient[:, :, 1],
-            ],
-            axis=2,
-        )
-        result = np.matmul(flat.transpose(0, 2, 1), flow.reshape(size, points * 2, -1))
-        element[part] = result.reshape(size, 3 * nodes, columns)
-    return scatter(operators, element)
+        local = moved[mesh.elements[part]]
+        size = len(local)
+        slope = np.matmul(tables.slope, local).reshape(size, 2, -1, 3, columns)
+        rr, ss, rs = np.moveaxis(np.matmul(tables.psi, pulled[part])[:, :, :, None], 1, 0)
+        flow = np.empty_like(slope)
+        flow[:, 0] = rr * slope[:, 0] + rs * slope[:, 1]
+        flow[:, 1] = rs * slope[:, 0] + ss * slope[:, 1]
+        np.matmul(tables.slope.T, flow.reshape(size, -1, 3 * columns), out=element[part])
+    return gather_nodes(operators, element.reshape(count, nodes, 3, columns))
 
 
-def assemble_geometric(geometric: GeometricOperator, force: np.ndarray) -> list[csr_array]:
-    """Return K_g of each column of N (E, 3, m, c): a matrix over nodes for x, y and z alike."""
-    elements = geometric.operators.mesh.elements
+def assemble_geometric(operators: ShellOperators, force: np.ndarray) -> list[csr_array]:
+    """Return K_g of each column of N (E, 3, m, c): a matrix over nodes for x, y and z alike.
+
+    A row holds the rows of all elements at the node one after the other, columns repeated: they
+    are only multiplied by, and summing the repeated entries would cost more than it saves.
+    """
+    elements = operators.mesh.elements
     count, nodes = elements.shape
-    size = len(geometric.operators.mesh.nodes)
-    rows = np.repeat(elements, nodes, axis=1).ravel()
-    columns = np.tile(elements, nodes).ravel()
+    size = len(operators.mesh.nodes)
+    tables = geometric_tables(operators.mesh.order)
+    pulled = _pull_back(operators, force)
+    i, j = np.divmod(np.arange(nodes**2), nodes)
+    i, j = np.maximum(i, j), np.minimum(i, j)
+    square = tables.product[:, i * (i + 1) // 2 + j]
+    order = operators.gather.indices
+    columns = elements[order // nodes].ravel().astype(np.int32)
+    indptr = (operators.gather.indptr * nodes).astype(np.int32)
     matrices = []
     for case in range(force.shape[3]):
-        at_points = np.einsum("qm,ecm->eqc", geometric.psi, force[..., case], optimize=True)
-        at_points *= geometric.weight[:, :, None]
-        tensor = at_points[:, :, [[0, 2], [2, 1]]]
-        flow = np.matmul(tensor, geometric.slope).reshape(count, -1, nodes)
-        flat = geometric.slope.reshape(count, -1, nodes)
-        values = np.matmul(flat.transpose(0, 2, 1), flow)
-        matrices.append(csr_array((values.ravel(), (rows, columns)), shape=(size, size)))
+        values = pulled[..., case].reshape(count, -1) @ square
+        data = values.reshape(-1, nodes)[order].ravel()
+        matrices.append(csr_array((data, columns, indptr), shape=(size, size)))
     return matrices
+
+
+def _pull_back(operators: ShellOperators, force: np.ndarray) -> np.ndarray:
+    """Return area J^-1 N J^-T (E, 3, m, c): components rr, ss, rs of the reference directions."""
+    inverse, area = operators.geometry.inverse, operators.geometry.area[:, None]
+    x, y = inverse[:, :, 0], inverse[:, :, 1]
+    rows = [
+        np.stack([x[:, 0] ** 2, y[:, 0] ** 2, 2 * x[:, 0] * y[:, 0]], axis=1),
+        np.stack([x[:, 1] ** 2, y[:, 1] ** 2, 2 * x[:, 1] * y[:, 1]], axis=1),
+        np.stack([x[:, 0] * x[:, 1], y[:, 0] * y[:, 1], x[:, 0] * y[:, 1] + y[:, 0] * x[:, 1]], 1),
+    ]
+    transform = np.stack(rows, axis=1) * area[:, None]
+    return np.matmul(transform, force.reshape(len(force), 3, -1)).reshape(force.shape)

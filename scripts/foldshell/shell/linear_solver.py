@@ -1,11 +1,12 @@
-"""One interface to sparse symmetric factorisations; the ordering is kept for a geometry."""
+"""One interface to sparse symmetric factorisations; the symbolic part is kept for a geometry."""
 
-from typing import Protocol
+import weakref
+from typing import Any, Protocol
 
 import numpy as np
 
 from foldshell.shell.assembly import LowerPattern
-from foldshell.shell.cholmod_block import open_block_solver
+from foldshell.shell.cholmod_library import open_library
 
 
 class NotPositiveDefiniteError(ArithmeticError):
@@ -29,8 +30,34 @@ class Factor(Protocol):
         """Return K^-1 B for B (size, k)."""
 
 
+_ANALYSED: "weakref.WeakKeyDictionary[LowerPattern, Any]" = weakref.WeakKeyDictionary()
+
+
 class CholmodFactor:
     """Supernodal Cholesky by CHOLMOD, from the wheel of cvxopt (Chen et al. 2008)."""
+
+    def __init__(self, pattern: LowerPattern, values: np.ndarray) -> None:
+        self._library = open_library()
+        self._pattern = pattern
+        if pattern not in _ANALYSED:
+            _ANALYSED[pattern] = self._library.analyse(pattern.indptr, pattern.indices)
+        self.refactor(values)
+
+    def refactor(self, values: np.ndarray) -> None:
+        pattern = self._pattern
+        try:
+            self._factor = self._library.factorise(
+                _ANALYSED[pattern], pattern.indptr, pattern.indices, values
+            )
+        except ArithmeticError as error:
+            raise NotPositiveDefiniteError(error.args[0]) from None
+
+    def solve(self, right_hand_sides: np.ndarray) -> np.ndarray:
+        return self._library.solve(self._factor, right_hand_sides)
+
+
+class CvxoptFactor:
+    """The same by the functions of cvxopt: slower, where its library cannot be called directly."""
 
     def __init__(self, pattern: LowerPattern, values: np.ndarray) -> None:
         from cvxopt import cholmod, matrix, spmatrix
@@ -41,26 +68,20 @@ class CholmodFactor:
         columns = np.repeat(np.arange(pattern.size), np.diff(pattern.indptr))
         size = (pattern.size, pattern.size)
         self._lower = spmatrix(matrix(values), pattern.indices, columns, size)
-        self._factor = cholmod.symbolic(self._lower)
-        self._block_solve = open_block_solver(self._factor)
-        self._numeric()
+        self._factor = cholmod.symbolic(self._lower, matrix(np.arange(pattern.size)))
+        self.refactor(values)
 
     def refactor(self, values: np.ndarray) -> None:
         self._lower.V = self._matrix(values)
-        self._numeric()
-
-    def solve(self, right_hand_sides: np.ndarray) -> np.ndarray:
-        if self._block_solve is not None:
-            return self._block_solve(right_hand_sides)
-        block = self._matrix(np.asfortranarray(right_hand_sides, dtype=float))
-        self._cholmod.solve(self._factor, block)
-        return np.array(block).reshape(right_hand_sides.shape)
-
-    def _numeric(self) -> None:
         try:
             self._cholmod.numeric(self._lower, self._factor)
         except ArithmeticError as error:
             raise NotPositiveDefiniteError(int(error.args[0])) from None
+
+    def solve(self, right_hand_sides: np.ndarray) -> np.ndarray:
+        block = self._matrix(np.asfortranarray(right_hand_sides, dtype=float))
+        self._cholmod.solve(self._factor, block)
+        return np.array(block).reshape(right_hand_sides.shape)
 
 
 class SuperLuFactor:
@@ -96,7 +117,17 @@ class SuperLuFactor:
         return self._lu.solve(np.ascontiguousarray(right_hand_sides))
 
 
-SOLVERS = {"cholmod": CholmodFactor, "superlu": SuperLuFactor}
+def _open_cholmod(pattern: LowerPattern, values: np.ndarray) -> Factor:
+    """Return the fastest Cholesky factor that is at hand."""
+    if open_library() is not None:
+        return CholmodFactor(pattern, values)
+    try:
+        return CvxoptFactor(pattern, values)
+    except ImportError:
+        return SuperLuFactor(pattern, values)
+
+
+SOLVERS = {"cholmod": _open_cholmod, "superlu": SuperLuFactor}
 
 
 def factorise(pattern: LowerPattern, values: np.ndarray, solver: str = "cholmod") -> Factor:

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from foldshell.shell.analysis import AnalysisResult, ShellModel
-from foldshell.shell.geometric import apply_geometric, geometric_operator
+from foldshell.shell.geometric import apply_geometric
 from foldshell.shell.material import CRITERIA, Material
 from foldshell.shell.stress import (
     evaluate,
@@ -118,8 +118,8 @@ def support_reactions(
     )
     internal = internal_forces(model.operators, resultants)
     if result.second_order is not None:
-        geometric = geometric_operator(model.operators)
-        internal = internal + apply_geometric(geometric, resultants.force, result.displacement)
+        push = apply_geometric(model.operators, resultants.force, result.displacement)
+        internal = internal + push
     reaction = translations(model, internal - result.loads)
     return reaction[model.supported_nodes]
 

@@ -3,17 +3,18 @@
 from dataclasses import dataclass
 
 import numpy as np
+from scipy.sparse import csr_array
 
 from foldshell.shell.element import (
     ElementGeometry,
     curvature_operator,
     element_geometry,
-    membrane_strain_operator,
     slope_jump_operator,
 )
 from foldshell.shell.mesh import ShellMesh
+from foldshell.shell.reference import reference_triangle
 
-CHUNK = 1024
+CHUNK = 64
 """Elements handled at once, so that temporary arrays stay in cache."""
 
 SLOPE_SPRING = 1.0
@@ -24,49 +25,51 @@ SLOPE_SPRING = 1.0
 class ShellOperators:
     """What a geometry and a Poisson's ratio fix, for unit thickness and unit Young's modulus.
 
-    `membrane_strain` (E, 3m, 3n) and `curvature` (E, 3m, 3n + 3p) give strain coefficients from
-    an element's degrees of freedom, `slope_jump` (E, 3p, 3n + 3p) the jumps that the springs of
-    stiffness t^3 `slope_spring` (E, 3p) resist; `membrane` and `bending` (E, d(d+1)/2) are the
-    packed lower triangles of the two stiffness matrices; `dofs` (E, d) are global numbers.
+    `strain_axes` (E, 3, 2, 3) gives strains xx, yy, xy from the derivatives of global displacement
+    along the two reference directions. `curvature` (E, 3m, n + 3p) and `slope_jump` (E, 3p, n + 3p)
+    act on an element's deflections and edge rotations; springs of stiffness t^3 `slope_spring`
+    (E, 3p) resist the jumps. `membrane` and `bending` (E, d(d+1)/2) are the packed lower triangles
+    of the two stiffness matrices on global displacements, node by node, and rotations; `dofs`
+    (E, d) are their numbers. `gather` (N, E n) sums element values at the nodes.
     """
 
     mesh: ShellMesh
     geometry: ElementGeometry
     elasticity: np.ndarray
-    membrane_strain: np.ndarray
+    strain_axes: np.ndarray
     curvature: np.ndarray
     slope_jump: np.ndarray
     slope_spring: np.ndarray
     membrane: np.ndarray
     bending: np.ndarray
     dofs: np.ndarray
+    gather: csr_array
 
 
 def build_operators(mesh: ShellMesh, poissons_ratio: float) -> ShellOperators:
     """Assemble the strain operators and both stiffness matrices of every element."""
     geometry = element_geometry(mesh)
     elasticity = plane_stress(poissons_ratio)
-    membrane_strain = _to_global(membrane_strain_operator(mesh, geometry), geometry.frame[:, :2])
+    axes = _strain_axes(geometry)
+    count = len(mesh.elements)
     deflection, rotation = curvature_operator(mesh, geometry)
-    normal = geometry.frame[:, 2:]
-    curvature = np.concatenate([_to_global(deflection[..., None], normal), rotation], axis=3)
-    jump, rotation = slope_jump_operator(mesh, geometry)
-    jump = np.concatenate([_to_global(jump[:, None, ..., None], normal)[:, 0], rotation], axis=2)
+    curvature = np.concatenate([deflection, rotation], axis=3).reshape(
+        count, -1, deflection.shape[3] + rotation.shape[3]
+    )
+    jump = np.concatenate(slope_jump_operator(mesh, geometry), axis=2)
     spring = _slope_spring(mesh, geometry, elasticity)
-    count = len(curvature)
-    flat_membrane = membrane_strain.reshape(count, -1, membrane_strain.shape[3])
-    flat_curvature = curvature.reshape(count, -1, curvature.shape[3])
     return ShellOperators(
         mesh=mesh,
         geometry=geometry,
         elasticity=elasticity,
-        membrane_strain=flat_membrane,
-        curvature=flat_curvature,
-        membrane=_packed_energy(flat_membrane, elasticity, geometry.area),
+        strain_axes=axes,
+        curvature=curvature,
         slope_jump=jump,
         slope_spring=spring,
-        bending=_packed_energy(flat_curvature, elasticity / 12, geometry.area, jump, spring),
+        membrane=_packed_membrane(mesh.order, axes, elasticity, geometry.area),
+        bending=_packed_bending(curvature, jump, spring, elasticity, geometry),
         dofs=element_dofs(mesh),
+        gather=_gather_matrix(mesh),
     )
 
 
@@ -85,38 +88,79 @@ def element_dofs(mesh: ShellMesh) -> np.ndarray:
     return np.concatenate([displacement, rotation.reshape(count, -1)], axis=1)
 
 
-def _to_global(operator: np.ndarray, axes: np.ndarray) -> np.ndarray:
-    """Rotate (E, c, m, n, k) on k local components to (E, c, m, 3n) on global ones."""
-    count, components, m, n, _ = operator.shape
-    return np.einsum("ecmnk,ekx->ecmnx", operator, axes).reshape(count, components, m, 3 * n)
-
-
 def _slope_spring(mesh: ShellMesh, geometry: ElementGeometry, elasticity: np.ndarray) -> np.ndarray:
     """Return the springs (E, 3p) for unit thickness: length times D / h on each edge."""
     spring = SLOPE_SPRING * elasticity[0, 0] / 12 * geometry.edge_length**2 / geometry.area[:, None]
     return np.repeat(spring, mesh.order, axis=1)
 
 
-def _packed_energy(
-    strain: np.ndarray,
-    elasticity: np.ndarray,
-    area: np.ndarray,
-    jump: np.ndarray | None = None,
-    spring: np.ndarray | None = None,
+def _strain_axes(geometry: ElementGeometry) -> np.ndarray:
+    """Return b (E, 3, 2, 3) with eps_s = sum over k, x of b_skx d u_x / d xi_k."""
+    along = geometry.inverse[:, :, :, None] * geometry.frame[:, None, :2]
+    shear = geometry.inverse[:, :, 1, None] * geometry.frame[:, None, 0]
+    shear = shear + geometry.inverse[:, :, 0, None] * geometry.frame[:, None, 1]
+    return np.stack([along[:, :, 0], along[:, :, 1], shear], axis=1)
+
+
+def _gather_matrix(mesh: ShellMesh) -> csr_array:
+    """Return the matrix of ones (N, E n) that sums element values at their nodes."""
+    nodes = mesh.elements.ravel()
+    indptr = np.concatenate([[0], np.cumsum(np.bincount(nodes, minlength=len(mesh.nodes)))])
+    order = np.argsort(nodes, kind="stable")
+    return csr_array((np.ones(len(nodes)), order, indptr), (len(mesh.nodes), len(nodes)))
+
+
+def _packed_membrane(
+    order: int, axes: np.ndarray, elasticity: np.ndarray, area: np.ndarray
 ) -> np.ndarray:
-    """Return area B^T D B + J^T k J as packed lower triangles, (E, d(d+1)/2)."""
-    count, rows, width = strain.shape
-    low = np.tril_indices(width)
-    packed = np.empty((count, len(low[0])))
-    root = np.linalg.cholesky(elasticity).T
+    """Return int eps^T D eps over each element on displacements, (E, 3n(3n+1)/2).
+
+    It is a sum of four matrices that all elements share, the products of reference derivatives.
+    """
+    gradient = reference_triangle(order).gradient
+    nodes = gradient.shape[2]
+    shared = np.einsum("kma,lmb->klab", gradient, gradient).reshape(4, -1)
+    flat = axes.reshape(len(axes), 3, 6)
+    pulled = flat.transpose(0, 2, 1) @ (area[:, None, None] * (elasticity @ flat))
+    pulled = pulled.reshape(-1, 2, 3, 2, 3).transpose(0, 2, 4, 1, 3).reshape(-1, 9, 4)
+    i, j = np.tril_indices(3 * nodes)
+    pick = (i % 3 * 3 + j % 3) * nodes**2 + i // 3 * nodes + j // 3
+    packed = np.empty((len(axes), len(pick)))
+    for start in range(0, len(axes), CHUNK):
+        part = slice(start, start + CHUNK)
+        energy = pulled[part].reshape(-1, 4) @ shared
+        np.take(energy.reshape(-1, 9 * nodes**2), pick, axis=1, out=packed[part], mode="clip")
+    return packed
+
+
+def _packed_bending(
+    curvature: np.ndarray,
+    jump: np.ndarray,
+    spring: np.ndarray,
+    elasticity: np.ndarray,
+    geometry: ElementGeometry,
+) -> np.ndarray:
+    """Return int kappa^T D kappa / 12 + jump^T k jump on global freedoms, (E, d(d+1)/2).
+
+    The deflection is the displacement along the normal.
+    """
+    count, rows, width = curvature.shape
+    nodes = width - jump.shape[1]
+    i, j = np.tril_indices(3 * nodes + jump.shape[1])
+    local_i, local_j = (np.where(k < 3 * nodes, k // 3, k - 2 * nodes) for k in (i, j))
+    axis_i, axis_j = (np.where(k < 3 * nodes, k % 3, 3) for k in (i, j))
+    direction = np.concatenate([geometry.frame[:, 2], np.ones((count, 1))], axis=1)
+    products = (direction[:, :, None] * direction[:, None, :]).reshape(count, 16)
+    root = np.linalg.cholesky(elasticity / 12).T
+    weight = np.sqrt(geometry.area)
+    packed = np.empty((count, len(i)))
     for start in range(0, count, CHUNK):
         part = slice(start, start + CHUNK)
-        blocks = strain[part].reshape(-1, 3, rows // 3 * width)
-        scaled = np.matmul(root, blocks).reshape(-1, rows, width)
-        scaled *= np.sqrt(area[part])[:, None, None]
-        if jump is not None:
-            springs = np.sqrt(spring[part])[:, :, None] * jump[part]
-            scaled = np.concatenate([scaled, springs], axis=1)
-        energy = scaled.transpose(0, 2, 1) @ scaled
-        packed[part] = energy[:, low[0], low[1]]
+        blocks = curvature[part].reshape(-1, 3, rows // 3 * width)
+        scaled = np.matmul(root, blocks).reshape(-1, rows, width) * weight[part, None, None]
+        springs = np.sqrt(spring[part])[:, :, None] * jump[part]
+        scaled = np.concatenate([scaled, springs], axis=1)
+        energy = (scaled.transpose(0, 2, 1) @ scaled).reshape(-1, width**2)
+        np.take(energy, local_i * width + local_j, axis=1, out=packed[part], mode="clip")
+        packed[part] *= np.take(products[part], axis_i * 4 + axis_j, axis=1)
     return packed

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foldshell.shell.reference import orthonormal_basis
+from foldshell.shell.reference import orthonormal_basis, reference_triangle
 from foldshell.shell.stiffness import ShellOperators
 
 SAMPLES = 12
@@ -37,8 +37,8 @@ def stress_resultants(
     displacement : (dofs, c) m and rad
     thickness : (E,) m
     """
-    local = displacement[operators.dofs]
     force = membrane_forces(operators, displacement, thickness, youngs_modulus)
+    local = _deflections_and_rotations(operators, displacement)
     stiffness = (youngs_modulus * thickness**3)[:, None, None]
     curvature = stiffness / 12 * np.matmul(operators.curvature, local)
     moment = _apply_elasticity(operators, curvature)
@@ -53,33 +53,58 @@ def membrane_forces(
     youngs_modulus: float,
 ) -> np.ndarray:
     """N = t E D eps(u), (E, 3, m, c) kN/m; linear in the displacements (dofs, c)."""
-    width = operators.membrane_strain.shape[2]
-    local = displacement[operators.dofs[:, :width]]
-    strain = np.matmul(operators.membrane_strain, local)
-    strain *= (youngs_modulus * thickness)[:, None, None]
-    return _apply_elasticity(operators, strain)
+    mesh = operators.mesh
+    table = reference_triangle(mesh.order).gradient
+    functions, columns = table.shape[1], displacement.shape[1]
+    moved = displacement[: 3 * len(mesh.nodes)].reshape(len(mesh.nodes), -1)
+    local = moved[mesh.elements]
+    slope = np.matmul(table.reshape(2 * functions, -1), local)
+    slope = slope.reshape(len(local), 2, functions, 3, columns).transpose(0, 1, 3, 2, 4)
+    stiffness = (youngs_modulus * thickness)[:, None, None] * operators.elasticity
+    axes = np.matmul(stiffness, operators.strain_axes.reshape(-1, 3, 6))
+    force = np.matmul(axes, slope.reshape(len(local), 6, -1))
+    return force.reshape(-1, 3, functions, columns)
 
 
 def internal_forces(operators: ShellOperators, resultants: StressResultants) -> np.ndarray:
     """Return K u (dofs, c) from the resultants: int B^T N + kappa^T M, element by element."""
-    area = operators.geometry.area[:, None, None]
-    count, _, _, columns = resultants.force.shape
-    flat = (count, -1, columns)
-    moment = area * resultants.moment.reshape(flat)
-    element = np.matmul(operators.curvature.transpose(0, 2, 1), moment)
-    element += np.matmul(operators.slope_jump.transpose(0, 2, 1), resultants.jump)
-    force = area * resultants.force.reshape(flat)
-    width = operators.membrane_strain.shape[2]
-    element[:, :width] += np.matmul(operators.membrane_strain.transpose(0, 2, 1), force)
-    return scatter(operators, element)
+    mesh, area = operators.mesh, operators.geometry.area[:, None, None]
+    count, _, functions, columns = resultants.force.shape
+    table = reference_triangle(mesh.order).gradient
+    axes = operators.strain_axes.reshape(count, 3, 6).transpose(0, 2, 1)
+    flow = np.matmul(axes, area * resultants.force.reshape(count, 3, -1))
+    flow = flow.reshape(count, 2, 3, functions, columns).transpose(0, 1, 3, 2, 4)
+    push = np.matmul(table.reshape(2 * functions, -1).T, flow.reshape(count, 2 * functions, -1))
+    moment = area * resultants.moment.reshape(count, -1, columns)
+    local = np.matmul(operators.curvature.transpose(0, 2, 1), moment)
+    local += np.matmul(operators.slope_jump.transpose(0, 2, 1), resultants.jump)
+    nodes = mesh.elements.shape[1]
+    normal = operators.geometry.frame[:, None, 2, :, None]
+    push = push.reshape(count, nodes, 3, columns) + local[:, :nodes, None] * normal
+    turning = local[:, nodes:].reshape(-1, columns)
+    numbers = operators.dofs[:, 3 * nodes :].ravel()
+    total = gather_nodes(operators, push)
+    for column in range(columns):
+        total[:, column] += np.bincount(numbers, turning[:, column], mesh.dof_count)
+    return total
 
 
-def scatter(operators: ShellOperators, element: np.ndarray) -> np.ndarray:
-    """Sum element vectors (E, d, c) into global ones (dofs, c); d may be the displacements only."""
-    numbers = operators.dofs[:, : element.shape[1]].ravel()
-    flat = element.reshape(-1, element.shape[2])
-    total = [np.bincount(numbers, column, operators.mesh.dof_count) for column in flat.T]
-    return np.array(total).T
+def gather_nodes(operators: ShellOperators, element: np.ndarray) -> np.ndarray:
+    """Sum element node forces (E, n, 3, c) into global ones (dofs, c)."""
+    columns, mesh = element.shape[3], operators.mesh
+    total = np.zeros((mesh.dof_count, columns))
+    summed = operators.gather @ element.reshape(-1, 3 * columns)
+    total[: 3 * len(mesh.nodes)] = summed.reshape(-1, columns)
+    return total
+
+
+def _deflections_and_rotations(operators: ShellOperators, displacement: np.ndarray) -> np.ndarray:
+    """Return the freedoms (E, n + 3p, c) on which curvature and slope jumps depend."""
+    mesh = operators.mesh
+    nodes = mesh.elements.shape[1]
+    moved = displacement[: 3 * len(mesh.nodes)].reshape(len(mesh.nodes), 3, -1)[mesh.elements]
+    deflection = np.einsum("enxc,ex->enc", moved, operators.geometry.frame[:, 2])
+    return np.concatenate([deflection, displacement[operators.dofs[:, 3 * nodes :]]], axis=1)
 
 
 def cell_points(cells: int) -> np.ndarray:

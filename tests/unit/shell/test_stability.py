@@ -2,14 +2,19 @@
 
 import numpy as np
 import pytest
-from shell_cases import folded_strip, skewed_patch
+from shell_cases import dense_stiffness, folded_strip, skewed_patch
 
 from foldshell.shell.analysis import AnalysisOptions, analyse_shell, build_model
-from foldshell.shell.assembly import assemble_stiffness, translation_dofs
+from foldshell.shell.assembly import assemble_stiffness, find_pattern, translation_dofs
 from foldshell.shell.buckling import find_buckling_factors
-from foldshell.shell.cholmod_block import open_block_solver
-from foldshell.shell.geometric import apply_geometric, assemble_geometric, geometric_operator
-from foldshell.shell.linear_solver import CholmodFactor, NotPositiveDefiniteError, factorise
+from foldshell.shell.cholmod_library import open_library
+from foldshell.shell.geometric import apply_geometric, assemble_geometric
+from foldshell.shell.linear_solver import (
+    CholmodFactor,
+    CvxoptFactor,
+    NotPositiveDefiniteError,
+    factorise,
+)
 from foldshell.shell.loads import Loads
 from foldshell.shell.material import Material
 from foldshell.shell.mesh import build_mesh
@@ -46,13 +51,12 @@ def arch_model(subdivisions: int = 2):
 def test_applied_and_assembled_geometric_stiffness_agree():
     mesh = folded_strip(3, 4)
     operators = build_operators(mesh, 0.2)
-    geometric = geometric_operator(operators)
     rng = np.random.default_rng(2)
     force = rng.standard_normal((len(mesh.elements), 3, 15, 2))
     displacement = rng.standard_normal((mesh.dof_count, 2))
-    applied = apply_geometric(geometric, force, displacement)
+    applied = apply_geometric(operators, force, displacement)
     count = 3 * len(mesh.nodes)
-    for case, matrix in enumerate(assemble_geometric(geometric, force)):
+    for case, matrix in enumerate(assemble_geometric(operators, force)):
         moved = displacement[:count, case].reshape(-1, 3)
         assert applied[:count, case].reshape(-1, 3) == pytest.approx(matrix @ moved, abs=1e-11)
     assert (applied[count:] == 0).all()
@@ -73,7 +77,7 @@ def test_geometric_energy_of_a_uniform_force_and_a_linear_field(order):
     displacement = np.zeros((mesh.dof_count, 1))
     moved = mesh.nodes @ frame[:2].T @ gradient.T
     displacement[: 3 * len(mesh.nodes), 0] = moved.ravel()
-    found = displacement[:, 0] @ apply_geometric(geometric_operator(operators), force, displacement)
+    found = displacement[:, 0] @ apply_geometric(operators, force, displacement)
     area = operators.geometry.area.sum()
     exact = area * np.einsum("ab,xa,xb->", plane_force, gradient, gradient)
     assert found[0] == pytest.approx(exact, rel=1e-11)
@@ -93,10 +97,9 @@ def dense_buckling(model, thickness, combination):
     dense[model.pattern.indices, column] = values
     dense[column, model.pattern.indices] = values
     force = membrane_forces(model.operators, result.linear, thickness, 31e6)
-    full = np.eye(model.mesh.dof_count)[:, model.pattern.free]
-    geometric = geometric_operator(model.operators)
+    full = np.eye(model.mesh.dof_count)[:, model.pattern.dofs]
     stacked = np.repeat(force, full.shape[1], axis=3)
-    matrix = apply_geometric(geometric, stacked, full)[model.pattern.free]
+    matrix = apply_geometric(model.operators, stacked, full)[model.pattern.dofs]
     return 1 / eigh(-(matrix + matrix.T) / 2, dense, eigvals_only=True)[-1]
 
 
@@ -143,10 +146,9 @@ def test_second_order_solves_its_equation():
     dense[model.pattern.indices, column] = values
     dense[column, model.pattern.indices] = values
     force = membrane_forces(model.operators, result.displacement, thickness, 31e6)
-    geometric = geometric_operator(model.operators)
-    extra = apply_geometric(geometric, force, result.displacement)[model.pattern.free]
-    free = model.pattern.free
-    gap = dense @ result.displacement[free] + extra - result.loads[free]
+    extra = apply_geometric(model.operators, force, result.displacement)[model.pattern.dofs]
+    dofs = model.pattern.dofs
+    gap = dense @ result.displacement[dofs] + extra - result.loads[dofs]
     assert np.abs(gap).max() < 1e-6 * np.abs(result.loads).max()
     assert np.abs(result.displacement - result.linear).max() > 1e-3 * np.abs(result.linear).max()
 
@@ -192,20 +194,42 @@ def test_solvers_agree_and_refactor():
         assert factor.solve(right) == pytest.approx(before / 2, abs=1e-9 * scale)
 
 
-def test_block_solve_equals_the_column_solve_of_cvxopt():
+def test_direct_calls_of_cholmod_equal_those_of_cvxopt():
     model = arch_model()
     values = assemble_stiffness(model.operators, model.pattern, np.full(64, 0.05), 31e6)
     right = np.random.default_rng(0).standard_normal((model.pattern.size, 5))
-    fast = CholmodFactor(model.pattern, values)
-    assert fast._block_solve is not None, "the block solve of CHOLMOD is not in use"
-    slow = CholmodFactor(model.pattern, values)
-    slow._block_solve = None
-    exact = slow.solve(right)
-    assert fast.solve(right) == pytest.approx(exact, abs=1e-10 * np.abs(exact).max())
+    assert open_library() is not None, "CHOLMOD is not called directly"
+    exact = CvxoptFactor(model.pattern, values).solve(right)
+    found = CholmodFactor(model.pattern, values).solve(right)
+    assert found == pytest.approx(exact, abs=1e-10 * np.abs(exact).max())
 
 
-def test_block_solver_refuses_what_is_no_factor():
-    assert open_block_solver(object()) is None
+def test_two_factors_of_one_pattern_do_not_disturb_each_other():
+    model = arch_model()
+    values = assemble_stiffness(model.operators, model.pattern, np.full(64, 0.05), 31e6)
+    right = np.ones((model.pattern.size, 1))
+    one = factorise(model.pattern, values)
+    before = one.solve(right)
+    factorise(model.pattern, 3 * values)
+    assert (one.solve(right) == before).all()
+
+
+@pytest.mark.parametrize("order", [1, 2, 3, 5])
+def test_pattern_assembles_what_dense_matrices_sum_to(order):
+    """Independent path: dense sums element by element, with scattered supports left out."""
+    mesh, _ = skewed_patch(3, order)
+    operators = build_operators(mesh, 0.2)
+    held = np.random.default_rng(5).choice(mesh.dof_count, mesh.dof_count // 4, replace=False)
+    pattern = find_pattern(operators, held)
+    found = np.zeros((pattern.size, pattern.size))
+    column = np.repeat(np.arange(pattern.size), np.diff(pattern.indptr))
+    thickness = np.full(len(mesh.elements), 0.3)
+    found[pattern.indices, column] = assemble_stiffness(operators, pattern, thickness, 2.0)
+    exact = np.tril(dense_stiffness(operators, 0.3, 2.0)[np.ix_(pattern.dofs, pattern.dofs)])
+    assert found == pytest.approx(exact, abs=1e-12 * np.abs(exact).max())
+    assert sorted(pattern.dofs) == np.setdiff1d(np.arange(mesh.dof_count), held).tolist()
+    ascending = np.diff(pattern.indices)[np.diff(column) == 0]
+    assert (ascending > 0).all()
 
 
 @pytest.mark.parametrize("solver", ["cholmod", "superlu"])
