@@ -31,7 +31,6 @@ rule refine:
     params:
         **of_design("support"),
         subdivisions=subdivisions,
-        meshes=SETTINGS.crosscheck.primary_subdivisions,
         settings=of_stage("crosscheck"),
     conda:
         "../envs/foldshell.yaml"

@@ -1,4 +1,4 @@
-"""Rule refine: the final state on two meshes, for its mesh error and for the cross-check."""
+"""Rule refine: the final state on a second mesh, for its mesh error and for the cross-check."""
 
 from collections.abc import Mapping
 from pathlib import Path
@@ -19,7 +19,6 @@ def main(
     *,
     support: str,
     subdivisions: int,
-    meshes: list[int],
     settings: Mapping[str, Any],
 ) -> None:
     """Write mesh_study.json (errors of the mesh in use) and crosscheck/primary.json."""
@@ -32,12 +31,12 @@ def main(
         read_arrays(folded_path),
         support,
         read_arrays(final_path)["thickness"],
-        sorted({subdivisions, *meshes}),
+        subdivisions,
         Material(**settings["material"]),
         Loads(**settings["loads"]),
         combinations,
     )
-    errors = estimate_errors(study, subdivisions)
+    errors = estimate_errors(study)
     report = {
         "mesh_error": max(error for values in errors.values() for error in values.values()),
         "subdivisions": subdivisions,

@@ -20,7 +20,7 @@ SETTINGS = {
     "study": "tiny",
     "analysis": {"subdivisions": 1},
     "sizing": {"iterations_max": 4, "start_thickness_mm": 80, "least_thickness_mm": 20},
-    "crosscheck": {"subdivisions": [1, 2], "primary_subdivisions": [1, 2]},
+    "crosscheck": {"subdivisions": [1, 2]},
 }
 
 

@@ -12,16 +12,22 @@ from foldshell.study.files import atomic_path, read_arrays, write_arrays
 
 
 def mesh_folded_sheet(
-    folded: dict[str, np.ndarray], support: str, subdivisions: int
+    folded: dict[str, np.ndarray],
+    support: str,
+    subdivisions: int,
+    order: int | None = None,
+    grading: float | None = None,
 ) -> dict[str, np.ndarray]:
     """Return the arrays of `mesh.npz`: the mesh, the sheet it covers, and its supports.
+
+    See `build_mesh` for subdivisions, order and grading.
 
     Besides the fields of `ShellMesh` these are vertices (V, 3) m, facets (F, 3), facet_panel (F,),
     support_pairs (K, 2) as vertices and supported_nodes (S,).
     """
     facets = folded["facets"]
     facet_panel = np.arange(len(facets)) // 2
-    mesh = build_mesh(folded["vertices"], facets, facet_panel, subdivisions)
+    mesh = build_mesh(folded["vertices"], facets, facet_panel, subdivisions, order, grading)
     pairs = supported_pairs(mesh.node_pairs, folded["zigzag"], folded["strip"], support)
     return {
         **{field.name: np.asarray(getattr(mesh, field.name)) for field in fields(mesh)},

@@ -41,9 +41,8 @@ def check_crosscheck(crosscheck: Crosscheck, combinations: Combinations, source:
                 f"{source}: crosscheck.{key}: {name!r}: a combination under combinations.{key} "
                 f"is allowed ({', '.join(known)})" + hint_nearest(name, known)
             )
-    for key in ("subdivisions", "primary_subdivisions"):
-        coarse, fine = getattr(crosscheck, key)
-        if coarse >= fine:
-            raise InputError(
-                f"{source}: crosscheck.{key}: {[coarse, fine]}: two rising numbers are allowed"
-            )
+    coarse, fine = crosscheck.subdivisions
+    if coarse >= fine:
+        raise InputError(
+            f"{source}: crosscheck.subdivisions: {[coarse, fine]}: two rising numbers are allowed"
+        )

@@ -117,6 +117,7 @@ class Sizing:
     least_thickness: float
     largest_thickness: float
     step: float
+    move_limit: float
     utilization_min: float
     utilization_max: float
     displacement_limit_span_over: float
@@ -144,7 +145,6 @@ class Crosscheck:
     """Comparison with the independent code; subdivisions are (coarse, fine)."""
 
     subdivisions: list[int]
-    primary_subdivisions: list[int]
     strength: str
     deflection: str
     tolerance: Tolerance

@@ -19,6 +19,8 @@ _CRITERIA = [
     "sizing.volume_change_max_relative",
     "sizing.iterations_max",
     "sizing.stop",
+    "sizing.rule",
+    "sizing.thinning_buckling_factor_min",
 ]
 _ANALYSIS = [
     "analysis.second_order",
