@@ -143,10 +143,31 @@ def _rotation(unit: np.ndarray, angle: np.ndarray) -> np.ndarray:
 def follow_path(
     folded: np.ndarray, flat: np.ndarray, grid: Grid, parts: np.ndarray
 ) -> tuple[list[np.ndarray], float]:
-    """Refold a sheet along its rigid path: states (V, 3) at each of `parts`, largest gap [m]."""
+    """Refold a sheet along its rigid path: states (V, 3) at each of `parts`, largest gap [m].
+
+    Every state is laid level, and turned and moved to lie over the folded one.
+    """
     folds = measure_folds(folded, grid)
     states = [fold_panels(flat, grid, scale_folds(folds, part)) for part in parts]
-    return [state.vertices for state in states], max(state.closure for state in states)
+    placed = [lay_level(state.vertices, grid, folded) for state in states]
+    return placed, max(state.closure for state in states)
+
+
+def lay_level(vertices: np.ndarray, grid: Grid, like: np.ndarray) -> np.ndarray:
+    """Move a state so that its facets face upwards on the mean and its plan lies over `like`."""
+    corners = vertices[grid.facets]
+    area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]).sum(axis=0)
+    up = area / np.linalg.norm(area)
+    axis = np.cross(up, [0.0, 0.0, 1.0])
+    sine = np.linalg.norm(axis)
+    tilt = np.eye(3)
+    if sine > 0:
+        tilt = _rotation(axis / sine, np.arctan2(sine, up[2]))
+    level = (vertices - vertices.mean(axis=0)) @ tilt.T
+    flat, over = level[:, 0] + 1j * level[:, 1], like - like.mean(axis=0)
+    turn = np.sum(np.conj(flat) * (over[:, 0] + 1j * over[:, 1]))
+    turned = flat * turn / abs(turn)
+    return np.column_stack([turned.real, turned.imag, level[:, 2]]) + like.mean(axis=0)
 
 
 def find_overlap(flat: np.ndarray, grid: Grid) -> bool:

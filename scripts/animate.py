@@ -1,0 +1,32 @@
+"""Rule animate: the folding path in a FOLD file as an animated GIF and stills."""
+
+from pathlib import Path
+
+from foldshell.folding.animation import draw_states, list_states, write_animation, write_stills
+from foldshell.pattern.fold_format import read_fold
+from foldshell.study.errors import user_errors
+
+
+def main(
+    fold_path: str | Path,
+    gif_path: str | Path,
+    stills_folder: str | Path | None = None,
+    *,
+    seconds_per_frame: float = 0.2,
+) -> None:
+    """Read crease_pattern.fold or true_pattern.fold; write the path as GIF, stills if asked."""
+    sheet = read_fold(fold_path)
+    images = draw_states(list_states(sheet), sheet.grid)
+    if stills_folder:
+        write_stills(stills_folder, images)
+    write_animation(gif_path, images, seconds_per_frame)
+
+
+if "snakemake" in globals():
+    with user_errors():
+        main(
+            snakemake.input.fold,  # noqa: F821
+            snakemake.output.gif,  # noqa: F821
+            snakemake.output.get("stills"),  # noqa: F821
+            **snakemake.params,  # noqa: F821
+        )
