@@ -25,7 +25,9 @@ COLOURS = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#000000")
 STYLES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)))
 HATCHES = ("", "///", "...", "xxx", "\\\\")
 DISPLACEMENT_LIMIT = 240.0
+DISPLACEMENT, VOLUME = "displacement_vertical_max_m", "volume_per_area_m"
 LIMIT_COLOUR = "#BE0028"
+BAR_LABEL_SHARE = 0.2
 WHITE_BOX = {"facecolor": "white", "edgecolor": "none", "boxstyle": "square,pad=0.15"}
 STYLE = {
     "font.size": 12,
@@ -48,6 +50,9 @@ def draw_comparison(
     with plt.rc_context(STYLE):
         if not columns:
             return draw_words(f"{comparison.title}: no design of this comparison in the study")
+        designs = [design for members in columns.values() for design in members.values()]
+        largest = {key: 1e3 * np.nanmax([d.number[key] for d in designs] + [0.0])
+                   for key in (DISPLACEMENT, VOLUME)}  # fmt: skip
         series = list(dict.fromkeys(name for members in columns.values() for name in members))
         figure, axes = plt.subplots(
             3, len(columns), figsize=(10, 9.5), squeeze=False, sharey="row", layout="constrained"
@@ -55,14 +60,15 @@ def draw_comparison(
         for column, (name, members) in zip(axes.T, columns.items(), strict=True):
             column[0].set_title(name, fontsize=13)
             draw_histogram(column[0], members, series)
-            draw_displacement(column[1], members, series, limit_span_over)
-            draw_volume(column[2], members, series)
+            draw_bars(column[1], DISPLACEMENT, members, series, largest[DISPLACEMENT])
+            draw_limits(column[1], members, limit_span_over)
+            draw_bars(column[2], VOLUME, members, series, largest[VOLUME])
         axes[0, 0].set_ylim(bottom=0)
         axes[0, 0].set_ylabel(f"share of area\n[% per {UTILIZATION_BIN:g}]")
         axes[1, 0].set_ylabel("vertical displacement,\ndown [mm]")
         axes[2, 0].set_ylabel("volume per mesh area\n[mm = L/m²]")
         handles, labels = _legend(axes.ravel())
-        title = describe_states(d for members in columns.values() for d in members.values())
+        title = describe_states(designs)
         figure.legend(handles, labels, loc="outside lower center", ncols=min(len(labels), 6),
                       frameon=False, title=title)  # fmt: skip
         figure.suptitle(comparison.title, fontsize=16, fontweight="bold")
@@ -90,41 +96,37 @@ def draw_histogram(axes: Axes, members: Mapping[str, StudyDesign], series: Seque
     axes.set_xlabel("utilization [-]")
 
 
-def draw_displacement(
-    axes: Axes, members: Mapping[str, StudyDesign], series: Sequence[str], span_over: float
-) -> None:
-    """Draw the largest downward displacement of each design, and its limit."""
-    values = {n: 1e3 * d.number["displacement_vertical_max_m"] for n, d in members.items()}
-    draw_bars(axes, values, members, series)
+def draw_limits(axes: Axes, members: Mapping[str, StudyDesign], span_over: float) -> None:
+    """Draw the limit of the displacement over the bar of each design."""
     for place, design in enumerate(members.values()):
         limit = 1e3 * design.number["span_m"] / span_over
         axes.plot([place - 0.45, place + 0.45], [limit, limit], color=LIMIT_COLOUR, linewidth=1.5)
 
 
-def draw_volume(axes: Axes, members: Mapping[str, StudyDesign], series: Sequence[str]) -> None:
-    """Draw volume over mesh area of each design."""
-    values = {n: 1e3 * d.number["volume_per_area_m"] for n, d in members.items()}
-    draw_bars(axes, values, members, series)
-
-
 def draw_bars(
     axes: Axes,
-    values: Mapping[str, float],
+    key: str,
     members: Mapping[str, StudyDesign],
     series: Sequence[str],
+    largest: float,
 ) -> None:
-    """Draw one bar a design with its value, or with its state where there is no value.
+    """Draw one bar a design, its value in mm, or its state where there is no value.
 
-    A star marks designs whose loop did not converge.
+    A star marks designs whose loop did not converge. `largest` is the largest value of all
+    columns: low bars have their value above them.
     """
+    values = {name: 1e3 * design.number[key] for name, design in members.items()}
     for place, (name, value) in enumerate(values.items()):
         k = series.index(name) % 5
         if np.isfinite(value):
             light = COLOURS[k] + "B0"
             axes.bar(place, value, 0.8, color=light, edgecolor="black", hatch=HATCHES[k])
             mark = "" if members[name].state == "converged" else "*"
-            axes.text(place, value / 2, f"{value:.3g}{mark}", ha="center", va="center",
-                      fontsize=11, bbox=WHITE_BOX)  # fmt: skip
+            inside = value > BAR_LABEL_SHARE * largest
+            axes.annotate(f"{value:.3g}{mark}", (place, value / 2 if inside else value),
+                          (0, 0 if inside else 3), textcoords="offset points", fontsize=11,
+                          ha="center", va="center" if inside else "bottom",
+                          bbox=WHITE_BOX if inside else None)  # fmt: skip
         else:
             axes.text(place, 0, f" {members[name].state.replace('_', ' ')}", rotation=90,
                       ha="center", va="bottom", fontsize=11)  # fmt: skip
@@ -143,8 +145,8 @@ def draw_axes_comparison(designs: Sequence[StudyDesign]) -> Figure:
         height = 2.2 + 0.36 * len(pairs)
         figure, axes = plt.subplots(1, 2, figsize=(10, height), sharey=True, layout="constrained")
         quantities = (
-            ("displacement_vertical_max_m", "vertical displacement, down [mm]"),
-            ("volume_per_area_m", "volume per mesh area [mm = L/m²]"),
+            (DISPLACEMENT, "vertical displacement, down [mm]"),
+            (VOLUME, "volume per mesh area [mm = L/m²]"),
         )
         for one, (key, words) in zip(axes, quantities, strict=True):
             draw_dumbbells(one, pairs, key)
