@@ -12,6 +12,7 @@ from crosscheck.extrapolation import (
     extrapolate,
     measure_order,
 )
+from crosscheck.reading import Place
 
 KINDS: dict[str, tuple[str, str]] = {
     "displacement_down_max_m": ("displacement", "m"),
@@ -86,7 +87,7 @@ def compare(primary: Code, independent: Code, tolerances: Mapping[str, float]) -
 
     Compared is what both codes give; what only one gives is listed as `not_compared`.
     """
-    allowed = TOLERANCES | dict(tolerances)
+    allowed = TOLERANCES | read_tolerances(tolerances)
     quantities: dict[str, Any] = {}
     missing = [name for name in primary.values if name not in independent.values]
     for combination, values in independent.values.items():
@@ -108,6 +109,15 @@ def compare(primary: Code, independent: Code, tolerances: Mapping[str, float]) -
         "primary_subdivisions": list(primary.subdivisions),
         "independent_subdivisions": list(independent.subdivisions),
     }
+
+
+def read_tolerances(tolerances: Mapping[str, float]) -> dict[str, float]:
+    """The tolerances given; raises CrosscheckError for an unknown name or a value not above 0."""
+    place = Place("crosscheck", "tolerance", dict(tolerances))
+    for name in place.names():
+        if name not in TOLERANCES:
+            place.refuse(name, "one of " + ", ".join(TOLERANCES))
+    return {name: place.key(name).number(above=0.0) for name in place.names()}
 
 
 def _compare_scalar(

@@ -6,6 +6,7 @@ import openpyxl
 import pytest
 
 from crosscheck.comparison import TOLERANCES, Code, build_independent, compare
+from crosscheck.errors import CrosscheckError
 from crosscheck.workbook import write_comparison
 
 RUN = {
@@ -77,6 +78,15 @@ def test_tolerances_can_be_set_and_have_defaults():
     assert compare(*codes, {"work": 0.1})["pass"]
     assert compare(*codes, {"work": 0.1})["quantities"]["S2 work_knm"]["tolerance"] == 0.1
     assert TOLERANCES["work"] == 0.05
+
+
+@pytest.mark.parametrize(
+    ("tolerance", "words"),
+    [({"works": 0.1}, "works"), ({"work": 0.0}, "work.*above 0"), ({"work": "5"}, "work")],
+)
+def test_a_tolerance_that_is_unknown_or_not_above_zero_is_refused(tolerance, words):
+    with pytest.raises(CrosscheckError, match=words):
+        compare(*build_codes(), tolerance)
 
 
 def test_what_only_one_code_gives_is_listed_and_nothing_compared_is_no_pass():
