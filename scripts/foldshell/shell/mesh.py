@@ -93,6 +93,7 @@ def build_mesh(
     if grading is not None and splits != 3:
         raise ValueError(f"{splits} elements along a facet edge: grading needs three")
     vertices, facets = np.asarray(vertices, float), np.asarray(facets)
+    _check_facets(vertices, facets)
     size = splits * order
     lattice = lattice_indices(size)
     numbers, pairs, pair_nodes, count = _number_nodes(len(vertices), facets, size)
@@ -127,6 +128,18 @@ def edge_polyline_nodes(mesh: ShellMesh, vertex_pairs: np.ndarray) -> np.ndarray
     if not np.array_equal(known[row], wanted):
         raise ValueError(f"{keys[known[row] != wanted][0].tolist()} is no edge of a facet")
     return np.unique(mesh.pair_nodes[row])
+
+
+def _check_facets(vertices: np.ndarray, facets: np.ndarray) -> None:
+    """Refuse facets without area."""
+    corner = vertices[facets]
+    side, other = corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]
+    twice_area = np.linalg.norm(np.cross(side, other), axis=1)
+    longest = np.maximum((side**2).sum(axis=1), (other**2).sum(axis=1))
+    flat = np.flatnonzero(~(twice_area > 1e-12 * longest))
+    if len(flat):
+        place = vertices[facets[flat[0]]].mean(axis=0).round(3).tolist()
+        raise ValueError(f"facet {flat[0]} at {place} m has no area")
 
 
 def _number_nodes(vertex_count, facets, n):

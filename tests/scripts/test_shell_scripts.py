@@ -1,0 +1,110 @@
+"""Entry scripts of the rules mesh, neutral_model and refine on a small sheet."""
+
+import meshio
+import numpy as np
+import pytest
+
+import mesh
+import neutral_model
+import refine
+from foldshell.exchange.neutral_model import FORMAT
+from foldshell.shell.mesh_files import read_mesh
+from foldshell.study.errors import InputError
+from foldshell.study.files import read_json, write_arrays
+from foldshell.study.settings import make_settings
+from foldshell.study.stages import stage_parameters
+
+SETTINGS = stage_parameters(make_settings({}), "crosscheck")
+
+
+def small_sheet() -> dict[str, np.ndarray]:
+    """Return the arrays of folded.npz of three by three panels of a corrugated barrel."""
+    zigzag, strip = np.divmod(np.arange(16), 4)
+    angle = np.radians(25) * (zigzag - 1.5)
+    radius = 5 + 0.5 * (strip % 2)
+    vertices = np.column_stack([1.2 * strip, radius * np.sin(angle), radius * np.cos(angle)])
+    number = np.arange(16).reshape(4, 4)
+    quads = np.stack([number[:-1, :-1], number[:-1, 1:], number[1:, 1:], number[1:, :-1]], -1)
+    quads = quads.reshape(-1, 4)
+    facets = quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
+    return dict(vertices=vertices, quads=quads, facets=facets, zigzag=zigzag, strip=strip)
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """Return a folder with folded.npz, mesh.npz, mesh.vtu and final.npz."""
+    write_arrays(tmp_path / "folded.npz", small_sheet())
+    files = [tmp_path / name for name in ("folded.npz", "mesh.npz", "mesh.vtu")]
+    mesh.main(*files, design="small", support="zigzag", subdivisions=2)
+    thickness = np.linspace(0.05, 0.09, 9)
+    write_arrays(tmp_path / "final.npz", {"thickness": thickness})
+    return tmp_path
+
+
+def test_mesh_holds_every_panel_and_pins_every_node_of_the_zigzag_edges(folder):
+    found, arrays = read_mesh(folder / "mesh.npz")
+    assert found.subdivisions == 2
+    assert np.bincount(found.panel).tolist() == [2] * 9
+    on_edge = np.isin(arrays["support_pairs"], [0, 1, 2, 3, 12, 13, 14, 15]).all()
+    assert on_edge and len(arrays["support_pairs"]) == 6
+    per_edge = found.pair_nodes.shape[1] - 2
+    assert len(arrays["supported_nodes"]) == 8 + 6 * per_edge
+
+
+def test_mesh_vtu_has_n_by_n_cells_a_facet_and_their_panels(folder):
+    grid = meshio.read(folder / "mesh.vtu")
+    assert len(grid.cells_dict["triangle"]) == 18 * 2**2
+    panels = grid.cell_data_dict["panel"]["triangle"]
+    assert np.bincount(panels).tolist() == [8] * 9
+    corners = grid.points[grid.cells_dict["triangle"]]
+    area = np.linalg.norm(
+        np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
+    )
+    sheet = small_sheet()
+    facet = sheet["vertices"][sheet["facets"]]
+    exact = np.linalg.norm(np.cross(facet[:, 1] - facet[:, 0], facet[:, 2] - facet[:, 0]), axis=1)
+    assert area.sum() == pytest.approx(exact.sum())
+    assert grid.point_data["supported"].sum() == 8 + 6
+
+
+def test_a_folded_facet_without_area_is_named(tmp_path):
+    sheet = small_sheet()
+    sheet["facets"][4] = [0, 0, 5]
+    write_arrays(tmp_path / "folded.npz", sheet)
+    files = [tmp_path / name for name in ("folded.npz", "mesh.npz", "mesh.vtu")]
+    with pytest.raises(InputError, match="design small: mesh: facet 4"):
+        mesh.main(*files, design="small", support="all", subdivisions=2)
+    assert not files[1].exists()
+
+
+def test_neutral_model_says_everything_in_plain_numbers(folder):
+    neutral_model.main(
+        folder / "mesh.npz", folder / "final.npz", folder / "model.json",
+        design="small", settings=SETTINGS,
+    )  # fmt: skip
+    model = read_json(folder / "model.json")
+    assert model["format"] == FORMAT
+    assert np.allclose(model["vertices_m"], small_sheet()["vertices"], rtol=0, atol=0)
+    assert len(model["facets"]) == 18 and len(model["panel_thickness_m"]) == 9
+    assert model["material"]["youngs_modulus_kpa"] == 31e6
+    assert model["loads_kn_m2"]["W"] * model["loads_kn_m2"]["wind_fraction"] == 0.85
+    assert model["combinations"]["S2"] == {"SW": 1.2, "SDL": 1.2, "LL": 1.6, "WX": 0.5}
+    assert len(model["supported_edges"]) == 6
+
+
+def test_refine_gives_two_meshes_and_the_error_of_the_first(folder):
+    refine.main(
+        folder / "folded.npz", folder / "final.npz", folder / "study.json",
+        folder / "primary.json", support="zigzag", subdivisions=2, settings=SETTINGS,
+    )  # fmt: skip
+    study, primary = read_json(folder / "study.json"), read_json(folder / "primary.json")
+    assert study["subdivisions"] == 2 and primary["subdivisions"] == [2, 12]
+    assert set(primary["combinations"]) == {"S2", "D2"}
+    coarse, fine = primary["combinations"]["S2"]["work_knm"]
+    assert coarse == pytest.approx(fine, rel=0.1) and coarse != fine
+    errors = [error for values in study["errors"].values() for error in values.values()]
+    assert study["mesh_error"] == max(errors)
+    assert 0 < study["mesh_error"] < 0.5
+    down = primary["combinations"]["S2"]["load_sum_kn"][0]
+    up = primary["combinations"]["S2"]["reaction_sum_kn"][0]
+    assert np.add(up, down) == pytest.approx(0, abs=1e-8)
