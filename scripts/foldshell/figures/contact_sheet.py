@@ -10,7 +10,8 @@ from foldshell.figures.camera import fit_camera
 from foldshell.figures.colours import MISSING, ColourScale, make_scale
 from foldshell.figures.drafts import Subject, crease_lines, support_marks
 from foldshell.figures.layout import INK, SOFT, Caption, draw_bar, fit_font, load_font
-from foldshell.figures.render import Scene, render_scenes
+from foldshell.figures.render import render_scenes
+from foldshell.figures.scene import Scene
 
 TILE = (400, 270)
 WORDS = 58

@@ -13,7 +13,7 @@ from foldshell.figures.creases import Creases, cut_dashes, find_creases
 from foldshell.figures.fields import choose_strength, membrane_force_coefficients
 from foldshell.figures.force_lines import ForceLine, make_force_field, trace_force_lines
 from foldshell.figures.layout import INK, SOFT, Caption, Key
-from foldshell.figures.render import Lines, Scene
+from foldshell.figures.scene import Lines, Scene
 from foldshell.figures.state import DesignState
 
 DENSE = 350

@@ -27,7 +27,7 @@ from foldshell.figures.fields import cell_area
 from foldshell.figures.force_lines import split_lines
 from foldshell.figures.isolines import find_isolines, panel_node_values
 from foldshell.figures.layout import INK, SOFT, Caption, Key
-from foldshell.figures.render import Lines, Scene
+from foldshell.figures.scene import Lines, Scene
 
 PAPER = (240, 240, 236)
 WIDTHS = ((0.04, 1.5), (0.2, 3.0), (0.5, 5.0))

@@ -1,52 +1,48 @@
 """PyVista without a screen: coloured surface, lines and supports to an image array."""
 
+import ctypes
 import os
+import sys
 from collections.abc import Sequence
-from dataclasses import dataclass, field
 
 import numpy as np
 
 from foldshell.figures.camera import Camera
+from foldshell.figures.painter import paint_scenes
+from foldshell.figures.scene import AMBIENT, DIFFUSE, SUPPORT_COLOUR, Lines, Scene
 
-LIFT = 0.0015
-"""Lines stand this share of the eye's distance in front of the surface they lie on."""
-
-
-@dataclass(frozen=True)
-class Lines:
-    """Polylines (K, n, 3) m of one colour and width (pixels of the final image)."""
-
-    points: np.ndarray
-    colour: tuple[int, int, int]
-    width: float
-    lift: float = LIFT
-
-
-@dataclass(frozen=True)
-class Scene:
-    """What is in one picture.
-
-    Attributes
-    ----------
-    points, triangles : surface (N, 3) m, (C, 3)
-    colours : (C, 3) or (N, 3) uint8, of the triangles or of the points
-    lines : polylines
-    supports : (S, 3) m, points that carry a support mark
-    support_size : height of that mark, m
-    """
-
-    points: np.ndarray
-    triangles: np.ndarray
-    colours: np.ndarray
-    lines: Sequence[Lines] = field(default_factory=tuple)
-    supports: np.ndarray | None = None
-    support_size: float = 0.0
+OPENGL_LIBRARIES = ("libEGL.so.1", "libOSMesa.so.8", "libOSMesa.so")
 
 
 def render_scenes(
     scenes: Sequence[Scene], cameras: Sequence[Camera], size: tuple[int, int]
 ) -> list[np.ndarray]:
-    """Return an image (height, width, 3) uint8 of each scene, drawn in one window of that size."""
+    """Return an image (height, width, 3) uint8 of each scene.
+
+    Drawn by PyVista in one window of that size, or painted where there is no OpenGL: VTK would
+    end the process with a segmentation fault.
+    """
+    draw = draw_scenes if has_opengl() else paint_scenes
+    return draw(scenes, cameras, size)
+
+
+def has_opengl() -> bool:
+    """Tell whether VTK will find a way to render: a screen, EGL or OSMesa (always if not Linux)."""
+    if sys.platform != "linux" or os.environ.get("DISPLAY"):
+        return True
+    for name in OPENGL_LIBRARIES:
+        try:
+            ctypes.CDLL(name)
+        except OSError:
+            continue
+        return True
+    return False
+
+
+def draw_scenes(
+    scenes: Sequence[Scene], cameras: Sequence[Camera], size: tuple[int, int]
+) -> list[np.ndarray]:
+    """Return the images of the scenes as PyVista renders them off-screen."""
     if not os.environ.get("DISPLAY"):
         os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
     import pyvista
@@ -86,7 +82,7 @@ def _add_surface(plotter, scene: Scene) -> None:
     place = surface.cell_data if len(scene.colours) == len(scene.triangles) else surface.point_data
     place["colour"] = scene.colours
     plotter.add_mesh(
-        surface, scalars="colour", rgb=True, ambient=0.72, diffuse=0.32, specular=0.0,
+        surface, scalars="colour", rgb=True, ambient=AMBIENT, diffuse=DIFFUSE, specular=0.0,
         smooth_shading=False, show_scalar_bar=False,
     )  # fmt: skip
 
@@ -118,4 +114,4 @@ def _add_supports(plotter, points: np.ndarray, size: float) -> None:
         resolution=12,
     )  # fmt: skip
     marks = pyvista.PolyData(points).glyph(geom=cone, scale=False, orient=False)
-    plotter.add_mesh(marks, color=(0.25, 0.25, 0.25), ambient=0.5, diffuse=0.5)
+    plotter.add_mesh(marks, color=tuple(c / 255 for c in SUPPORT_COLOUR), ambient=0.5, diffuse=0.5)

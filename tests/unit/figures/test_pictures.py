@@ -17,7 +17,8 @@ from foldshell.figures.pictures import (
     draw_design,
     exaggeration,
 )
-from foldshell.figures.render import Scene, render_scenes
+from foldshell.figures.render import render_scenes
+from foldshell.figures.scene import Scene
 from unit.figures.figure_cases import make_state
 
 SIZE = (640, 480)
