@@ -10,9 +10,10 @@ from pathlib import Path
 import openpyxl
 import pytest
 
-from crosscheck.analysis import analyse_model, list_values
 from crosscheck.errors import CrosscheckError
 from crosscheck.model import read_model
+from crosscheck.stability import analyse_mesh
+from crosscheck.system import SHEAR_FACTOR
 from crosscheck_models import describe_small_fold, write_model
 
 SCRIPT = Path(__file__).parents[2] / "scripts" / "crosscheck.py"
@@ -30,12 +31,13 @@ def primary_values(tmp_path_factory):
 
 
 def compute_primary(folder, data):
+    """Plain data as the primary code writes it, second-order values within their combination."""
     model = read_model(write_model(folder / "model.json", data))
-    runs = [list_values(analyse_model(model, m)) for m in (3, 4)]
-    combinations = {
-        c: {name: [run[c][name] for run in runs] for name in runs[0][c]} for c in runs[0]
-    }
-    return {"subdivisions": [3, 4], "order": 3.0, "combinations": combinations}
+    runs = [analyse_mesh(model, m, SHEAR_FACTOR, True, True) for m in (3, 4)]
+    values = {c: {name: [run[c][name] for run in runs] for name in runs[0][c]} for c in runs[0]}
+    for c in ("S2", "D2"):
+        values[c]["second_order"] = values.pop(f"{c} Th.II")
+    return {"subdivisions": [3, 4], "order": 3.0, "combinations": values}
 
 
 def write_inputs(folder, primary, model=None):
@@ -53,6 +55,9 @@ def test_agreeing_codes_pass(main, tmp_path, primary_values):
     main(*paths, subdivisions=[1, 2], tolerance={"work": 0.03})
     result = json.loads(paths[2].read_text())
     assert result["pass"], result
+    assert result["not_compared"] == []
+    compared = set(result["quantities"])
+    assert {"S2 work_knm", "D2 buckling_factor", "S2 Th.II displacement_max_m"} <= compared
     assert result["design"] == "test"
     work = result["quantities"]["D2 work_knm"]
     assert work["tolerance"] == 0.03
@@ -118,6 +123,18 @@ def test_a_planted_slip_is_caught(main, tmp_path, primary_values, slip):
     paths = write_inputs(tmp_path, compute_primary(tmp_path, wrong))
     main(*paths, subdivisions=[1, 2])
     assert not json.loads(paths[2].read_text())["pass"]
+
+
+def test_a_slip_in_stability_alone_is_caught(main, tmp_path, primary_values):
+    """Membrane forces of half the size in the other code: twice the factor, first order alike."""
+    wrong = json.loads(json.dumps(primary_values))
+    for entry in wrong["combinations"].values():
+        entry["buckling_factor"] = [2 * value for value in entry["buckling_factor"]]
+    paths = write_inputs(tmp_path, wrong)
+    main(*paths, subdivisions=[1, 2])
+    quantities = json.loads(paths[2].read_text())["quantities"]
+    failed = {name for name, entry in quantities.items() if not entry["pass"]}
+    assert failed == {"S2 buckling_factor", "D2 buckling_factor"}
 
 
 @pytest.mark.parametrize(
