@@ -6,6 +6,8 @@ Field names are the keys of config.yaml without their unit suffix: `youngs_modul
 
 from dataclasses import dataclass
 
+from foldshell.shell.material import Material
+
 Factors = dict[str, dict[str, float]]
 
 
@@ -60,19 +62,6 @@ class Fold:
     max_iterations: int
     tolerance: float
     limits: FoldLimits
-
-
-@dataclass(frozen=True)
-class Material:
-    """Material: moduli and strengths in kPa, unit weight in kN/m3."""
-
-    name: str
-    youngs_modulus: float
-    poissons_ratio: float
-    unit_weight: float
-    strength: float
-    strength_tension: float
-    criterion: str
 
 
 @dataclass(frozen=True)
