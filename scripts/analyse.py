@@ -10,6 +10,7 @@ from foldshell.shell.material import Material
 from foldshell.shell.mesh_files import read_mesh
 from foldshell.sizing.criteria import StopRule
 from foldshell.sizing.iteration import IterationTask, LoadPlan, run_iteration
+from foldshell.sizing.step import NEED_CONSTRAINTS
 from foldshell.study.errors import InputError, user_errors
 from foldshell.study.files import hash_file, read_arrays, read_json, write_arrays, write_json
 from foldshell.workbook.edits import keep_edited
@@ -31,7 +32,8 @@ def main(
     previous: tuple[str, str] | None = None,
 ) -> None:
     """Write analysis.npz, then analysis.json; `previous` names those of the iteration before."""
-    rule = StopRule(**settings["sizing"])
+    sizing = settings["sizing"]
+    rule = StopRule(**{name: sizing[name] for name in StopRule.__dataclass_fields__})
     edited = keep_edited(workbook_path)
     grid = make_panel_grid(zigzag, strip)
     thickness = read_thickness(workbook_path, grid, rule.least_thickness, rule.largest_thickness)
@@ -45,7 +47,9 @@ def main(
     plan = LoadPlan(Loads(**settings["loads"]), **settings["combinations"])
     options = AnalysisOptions(**settings["analysis"])
     task = IterationTask(iteration, span_m, thickness, *before)
-    report, fields = run_iteration(model, task, material, plan, options, rule)
+    factor_min = sizing["thinning_buckling_factor_min"]
+    factor_min = factor_min if sizing["rule"] in NEED_CONSTRAINTS else None
+    report, fields = run_iteration(model, task, material, plan, options, rule, factor_min)
     report["edited"] = edited
     report["workbook_sha256"] = hash_file(workbook_path)
     write_arrays(arrays_path, fields)

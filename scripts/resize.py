@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from foldshell.sizing.constraints import read_constraints
 from foldshell.sizing.rules import SizingLimits
 from foldshell.sizing.step import StepRule, propose_thickness
 from foldshell.study.errors import user_errors
@@ -31,11 +32,12 @@ def main(
     sizing = settings["sizing"]
     limits = SizingLimits(**{name: sizing[name] for name in SizingLimits.__dataclass_fields__})
     factor = sizing["thinning_buckling_factor_min"]
-    rule = StepRule(sizing["rule"], sizing["step"], factor, limits)
+    rule = StepRule(sizing["rule"], sizing["step"], factor, limits, sizing["move_limit"])
     analysis, arrays = read_json(json_path), read_arrays(arrays_path)
     thickness, used = arrays["thickness"], arrays.get(f"utilization_{sizing['measure']}")
     memory = read_arrays(previous_memory) if previous_memory else {}
-    following = propose_thickness(analysis, thickness, used, memory, rule)
+    constraints = read_constraints(arrays)
+    following = propose_thickness(analysis, thickness, used, memory, rule, constraints)
     new = round_thickness(following.thickness)
     table = ThicknessTable(
         make_panel_grid(zigzag, strip), new, thickness, used, new / thickness - 1, following.note

@@ -6,7 +6,10 @@ from typing import Any
 
 import numpy as np
 
+from foldshell.shell.loads import Loads
+from foldshell.shell.material import Material
 from foldshell.shell.mesh_files import mesh_folded_sheet, write_mesh
+from foldshell.sizing.iteration import LoadPlan
 from foldshell.study.config_file import read_config
 from foldshell.study.settings import make_settings
 from foldshell.study.stages import stage_parameters
@@ -51,3 +54,10 @@ def stage(name: str, **sizing: Any) -> dict[str, Any]:
     values = stage_parameters(_settings(), name)
     known = {key: value for key, value in sizing.items() if key in values.get("sizing", {})}
     return values | {"sizing": values["sizing"] | known}
+
+
+def stage_objects() -> tuple[Material, LoadPlan]:
+    """Return the material, the loads and the combinations at their defaults."""
+    values = stage("analyse")
+    plan = LoadPlan(Loads(**values["loads"]), **values["combinations"])
+    return Material(**values["material"]), plan

@@ -79,7 +79,7 @@ def test_iterations_left_over_are_removed(loop):
 
 
 def test_cut_off_analysis_is_named(loop, tmp_path):
-    folder, analyses = loop
+    analyses = loop[1]
     broken = tmp_path / "analysis.json"
     broken.write_text(analyses[0].read_text()[:40])
     with pytest.raises(InputError, match=r"analysis\.json: not the analysis of iteration 0"):

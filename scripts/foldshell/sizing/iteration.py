@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from foldshell.shell.analysis import AnalysisOptions, AnalysisResult, ShellModel, analyse_shell
-from foldshell.shell.loads import Loads
+from foldshell.shell.loads import Loads, combination_matrix
 from foldshell.shell.material import Material
 from foldshell.shell.results import (
     Utilization,
@@ -22,6 +22,7 @@ from foldshell.shell.results import (
     translations,
 )
 from foldshell.sizing.criteria import IterationState, StopRule, Verdict, judge_iteration
+from foldshell.sizing.linearise import linearise_constraints
 
 
 @dataclass(frozen=True)
@@ -57,8 +58,13 @@ def run_iteration(
     plan: LoadPlan,
     options: AnalysisOptions,
     rule: StopRule,
+    factor_min: float | None = None,
 ) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
-    """Return the contents of analysis.json and analysis.npz."""
+    """Return the contents of analysis.json and analysis.npz.
+
+    With `factor_min`, the buckling factor to keep, the arrays of an analysis after which the loop
+    goes on hold the linearised constraints.
+    """
     began = time.perf_counter()
     thickness = task.thickness[model.mesh.panel]
     modes = task.previous_arrays.get("buckling_modes")
@@ -98,6 +104,11 @@ def run_iteration(
         report |= _headline(model, result, thickness, material, plan, utilization, panels)
         report["panels_above_one"] = int((panels[rule.measure] > rule.utilization_max).sum())
         arrays |= {f"utilization_{name}": values for name, values in panels.items()}
+    if factor_min is not None and result.state == "ok" and verdict.verdict == "continue":
+        factors = combination_matrix(plan.combinations)
+        arrays |= linearise_constraints(
+            model, result, thickness, material, factors, utilization, rule, task.span, factor_min
+        ).to_arrays()
     if verdict.verdict != "continue":
         arrays |= _final_fields(model, result, plan, utilization)
     report["seconds"] = time.perf_counter() - began

@@ -1,9 +1,10 @@
 """Rules that turn the utilization of panels into their next thickness."""
 
-from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 import numpy as np
+
+from foldshell.sizing.constraints import Constraints
 
 SIGN_CHANGES_MAX = 3
 """Changes of direction after which the step of a panel is halved."""
@@ -14,7 +15,8 @@ class SizingState:
     """What a rule sees; arrays are (P,), thickness in m.
 
     `step` is the relative step of each panel, `direction` its last change (-1, 0, 1), `turns` how
-    often that changed sign. `thin` tells whether thinning is allowed at all.
+    often that changed sign. `thin` tells whether thinning is allowed at all. `constraints` and the
+    largest relative step `step_max` serve the rule `optimality` alone.
     """
 
     thickness: np.ndarray
@@ -23,6 +25,8 @@ class SizingState:
     direction: np.ndarray
     turns: np.ndarray
     thin: bool = True
+    constraints: Constraints | None = None
+    step_max: float = np.inf
 
 
 @dataclass(frozen=True)
@@ -56,12 +60,6 @@ def literal(state: SizingState, limits: SizingLimits) -> SizingState:
     return _step(state, wish, limits)
 
 
-RULES: dict[str, Callable[[SizingState, SizingLimits], SizingState]] = {
-    "dead_band": dead_band,
-    "literal": literal,
-}
-
-
 def thicken_all(state: SizingState, limits: SizingLimits, step: float) -> SizingState:
     """Grow every panel by one step, as is done when a structure is unstable or too soft."""
     thickness = np.minimum(state.thickness * (1 + step), limits.largest_thickness)
@@ -79,4 +77,4 @@ def _step(state: SizingState, wish: np.ndarray, limits: SizingLimits) -> SizingS
         state.thickness * (1 + wish * step), limits.least_thickness, limits.largest_thickness
     )
     direction = np.where(wish == 0, state.direction, wish)
-    return SizingState(thickness, state.utilization, step, direction, turns, state.thin)
+    return replace(state, thickness=thickness, step=step, direction=direction, turns=turns)

@@ -1,22 +1,47 @@
 """From one analysed iteration to the thicknesses of the next."""
 
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
-from foldshell.sizing.rules import RULES, SizingLimits, SizingState, start_state, thicken_all
+from foldshell.sizing.constraints import Constraints
+from foldshell.sizing.optimality import optimality
+from foldshell.sizing.rules import (
+    SizingLimits,
+    SizingState,
+    dead_band,
+    literal,
+    start_state,
+    thicken_all,
+)
+
+RULES: dict[str, Callable[[SizingState, SizingLimits], SizingState]] = {
+    "dead_band": dead_band,
+    "literal": literal,
+    "optimality": optimality,
+}
+
+NEED_CONSTRAINTS = ("optimality",)
+"""Rules that work on the linearised constraints of the analysis."""
 
 
 @dataclass(frozen=True)
 class StepRule:
-    """Settings of the step: rule name, relative step, least factor at which panels may thin."""
+    """Settings of the step: rule name, relative step, least factor at which panels may thin, and
+    the relative move limit of rules that work on constraints."""
 
     rule: str
     step: float
     thinning_buckling_factor_min: float
     limits: SizingLimits
+    move_limit: float = 0.3
+
+    @property
+    def first_step(self) -> float:
+        """Relative step of every panel at the start."""
+        return self.move_limit if self.rule in NEED_CONSTRAINTS else self.step
 
 
 @dataclass(frozen=True)
@@ -34,12 +59,14 @@ def propose_thickness(
     utilization: np.ndarray | None,
     memory: Mapping[str, np.ndarray],
     rule: StepRule,
+    constraints: Constraints | None = None,
 ) -> NextStep:
     """Apply the sizing rule, or thicken everything where the state does not allow it.
 
     An unstable or unconverged analysis thickens from the last stable state, one step more each
     time. While the least buckling factor or the displacement is beyond its limit nothing is
-    thinned; where displacement alone is open and no panel is overstressed, all panels grow.
+    thinned; where displacement alone is open and no panel is overstressed, all panels grow. A rule
+    that works on constraints sees the displacement among them.
 
     Parameters
     ----------
@@ -47,14 +74,23 @@ def propose_thickness(
     thickness : (P,) m as analysed
     utilization : (P,) by the chosen measure, None where the analysis gave none
     memory : arrays of the step before; empty at the start
+    constraints : of the analysis, for rules in `NEED_CONSTRAINTS`
     """
-    state = _restore(thickness, memory, rule.step)
+    state = _restore(thickness, memory, rule.first_step)
     if analysis["state"] != "ok":
         return _recover(state, memory, rule, analysis)
     factors = [value for value in analysis["buckling_factor"].values() if value is not None]
     stiff = analysis["criteria"]["displacement_vertical_m"]["met"]
     safe = min(factors, default=np.inf) >= rule.thinning_buckling_factor_min
-    state = replace(state, utilization=utilization, thin=bool(stiff and safe))
+    if rule.rule in NEED_CONSTRAINTS:
+        stiff = True
+    state = replace(
+        state,
+        utilization=utilization,
+        thin=bool(stiff and safe),
+        constraints=constraints,
+        step_max=rule.move_limit,
+    )
     if not stiff and not (utilization > rule.limits.utilization_max).any():
         following = thicken_all(state, rule.limits, rule.step)
         note = "displacement above its limit"
@@ -81,6 +117,8 @@ def _recover(state, memory, rule: StepRule, analysis: Mapping[str, Any]) -> Next
     following = thicken_all(
         replace(state, thickness=base), rule.limits, (1 + rule.step) ** steps - 1
     )
+    if rule.rule in NEED_CONSTRAINTS:
+        following = replace(following, step=following.step / 2)
     kept = np.empty(0) if stable is None else stable
     note = (analysis["reason"],) * len(base)
     return NextStep(following.thickness, note, _memory(following, kept, failures))
