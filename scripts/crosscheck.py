@@ -3,7 +3,7 @@
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from crosscheck.comparison import build_independent, compare
+from crosscheck.comparison import SECOND_ORDER, build_independent, compare
 from crosscheck.errors import CrosscheckError, report_errors
 from crosscheck.model import read_model
 from crosscheck.primary import read_primary
@@ -22,21 +22,22 @@ def main(
     subdivisions: Sequence[int] = (1, 2),
     tolerance: Mapping[str, float] | None = None,
     stability: bool = True,
-    second_order: bool = True,
     shear_factor: float = SHEAR_FACTOR,
 ) -> None:
     """Read model.json and primary.json; write comparison.json and comparison.xlsx.
 
     `subdivisions` are the elements along a block side of each mesh, coarse to fine; `tolerance`
-    overrides relative tolerances by quantity; `stability` adds buckling factors, and with it
-    `second_order` the values of Th.II. `shear_factor` 5/6 gives the physical plate.
+    overrides relative tolerances by quantity; `stability` adds the buckling factors and values
+    of second order that the primary code gives. `shear_factor` 5/6 is the physical plate.
     """
     model = read_model(model_path)
     primary = read_primary(primary_path, model.compared_combinations)
     meshes = [int(m) for m in subdivisions]
     if not meshes or any(m < 1 for m in meshes) or meshes != sorted(set(meshes)):
         raise CrosscheckError(f"crosscheck.subdivisions: {meshes}: allowed are increasing, from 1")
-    runs = [analyse_mesh(model, m, shear_factor, stability, second_order) for m in meshes]
+    buckling = stability and "buckling_factor" in primary.names
+    second = stability and any(SECOND_ORDER in name for name in primary.values)
+    runs = [analyse_mesh(model, m, shear_factor, buckling, second) for m in meshes]
     result = compare(primary, build_independent(meshes, runs), tolerance or {})
     write_comparison(workbook_path, model.design, result)
     write_json(json_path, {"design": model.design, **result})

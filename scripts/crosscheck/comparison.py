@@ -14,6 +14,9 @@ from crosscheck.extrapolation import (
 )
 from crosscheck.reading import Place
 
+SECOND_ORDER = "Th.II"
+"""Second-order values of combination S2 stand under `S2 Th.II`."""
+
 KINDS: dict[str, tuple[str, str]] = {
     "displacement_down_max_m": ("displacement", "m"),
     "displacement_max_m": ("displacement", "m"),
@@ -53,6 +56,11 @@ class Code:
     values: Mapping[str, Mapping[str, Any]]
     orders: Mapping[str, float]
     default_order: float
+
+    @property
+    def names(self) -> set[str]:
+        """All quantities that some combination has."""
+        return {name for values in self.values.values() for name in values}
 
     def limit(self, combination: str, name: str) -> tuple[float, float | None]:
         """The value that stands, and the order it was extrapolated with, None where it was not."""

@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from itertools import pairwise
 from pathlib import Path
 
-from crosscheck.comparison import KINDS, Code
+from crosscheck.comparison import KINDS, SECOND_ORDER, Code
 from crosscheck.extrapolation import PRIMARY_ORDER
 from crosscheck.reading import Place, read_json
 
@@ -29,7 +29,7 @@ def read_primary(path: str | Path, combinations: Iterable[str]) -> Code:
             entry.key(vector)
         if "second_order" in entry.names() and entry.value["second_order"] is not None:
             second = _read_values(entry.key("second_order"), len(subdivisions))
-            values[f"{name} Th.II"] = second
+            values[f"{name} {SECOND_ORDER}"] = second
     return Code(
         [int(n) if n == int(n) else n for n in subdivisions],
         values,

@@ -10,22 +10,21 @@ from crosscheck.analysis import (
     sum_loads,
 )
 from crosscheck.buckling import compute_buckling_factors
+from crosscheck.comparison import SECOND_ORDER
 from crosscheck.model import Model
 from crosscheck.second_order import NotSettled, solve_second_order
 from crosscheck.system import Response
 
-SECOND_ORDER = "Th.II"
-"""Second-order values of combination S2 stand under `S2 Th.II`."""
 LARGEST_FACTOR = 1e6  # beyond it nothing buckles; a number that JSON can hold
 
 
 def analyse_mesh(
-    model: Model, subdivisions: int, shear_factor: float, stability: bool, second_order: bool
+    model: Model, subdivisions: int, shear_factor: float, buckling: bool, second_order: bool
 ) -> dict[str, dict[str, object]]:
     """All values of one mesh, by combination; second-order ones under `<combination> Th.II`."""
     analysis = analyse_model(model, subdivisions, shear_factor)
     values = list_values(analysis)
-    if stability:
+    if buckling or second_order:
         for name, entry in list_stability_values(analysis, second_order).items():
             values[name] = values.get(name, {}) | entry
     return values
