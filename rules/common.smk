@@ -1,10 +1,13 @@
 # What the rules of all stages share: designs by name, parameters of a stage, library files.
 
+import math
+
 from foldshell.study.designs import select_designs
 from foldshell.study.imports import library_files
 from foldshell.study.stages import choose_subdivisions, settings_hash, stage_parameters
 
 BY_NAME = {design.name: design for design in DESIGNS}
+SECTOR_ANGLE_DEG = round(math.degrees(SETTINGS.pattern.sector_angle), 10)
 PICTURES = ["thickness", "utilization", "displacement", "planarity"]
 PICTURES += ["strain", "force_lines", "isolines", "buckling"]
 # Relative in the project's own folder, so that a moved project does not run anew.
@@ -49,4 +52,9 @@ def study_files(tag):
     """Return what is made of every design with a tag."""
     files = ["design.xlsx", "design.vtu", "crosscheck/comparison.json"]
     files += [f"figures/{name}.png" for name in PICTURES]
-    return [f"{RESULTS}/{name}/{file}" for name in names_of_tag(tag) for file in files]
+    true_pattern = [f"pattern/true_pattern.{kind}" for kind in ("fold", "dxf", "svg")]
+    return [
+        f"{RESULTS}/{name}/{file}"
+        for name in names_of_tag(tag)
+        for file in files + true_pattern * (BY_NAME[name].fold_mode in ("exact", "rigid"))
+    ]

@@ -15,7 +15,7 @@ rule draw:
         vtu=f"{RESULTS}/{{design}}/design.vtu",
         lines=f"{RESULTS}/{{design}}/design_lines.vtu",
     params:
-        **of_design("span_m"),
+        **of_design("span_m", "pattern"),
         settings=lambda wildcards: of_stage("size")(wildcards) | of_stage("figures")(wildcards),
     conda:
         "../envs/foldshell.yaml"

@@ -15,3 +15,52 @@ rule fold:
         "../envs/foldshell.yaml"
     script:
         "../scripts/fold.py"
+
+
+rule unfold:
+    message:
+        "{wildcards.design}: true crease pattern"
+    input:
+        pattern=rules.pattern.output.fold,
+        folded=rules.fold.output.folded,
+        library=library("unfold"),
+    output:
+        fold=f"{RESULTS}/{{design}}/pattern/true_pattern.fold",
+        dxf=f"{RESULTS}/{{design}}/pattern/true_pattern.dxf",
+        svg=f"{RESULTS}/{{design}}/pattern/true_pattern.svg",
+    conda:
+        "../envs/foldshell.yaml"
+    script:
+        "../scripts/unfold.py"
+
+
+rule animate:
+    message:
+        "{wildcards.design}: animation of the {wildcards.pattern} pattern"
+    input:
+        fold=f"{RESULTS}/{{design}}/pattern/{{pattern}}_pattern.fold",
+        library=library("animate"),
+    output:
+        gif=f"{RESULTS}/{{design}}/animation/{{pattern}}.gif",
+        stills=directory(f"{RESULTS}/{{design}}/animation/{{pattern}}"),
+    wildcard_constraints:
+        pattern="crease|true",
+    conda:
+        "../envs/foldshell.yaml"
+    script:
+        "../scripts/animate.py"
+
+
+rule kinematics:
+    message:
+        "kinematics of the Miura sheet"
+    input:
+        library=library("kinematics"),
+    output:
+        table=f"{RESULTS}/kinematics.json",
+    params:
+        sector_angle_deg=SECTOR_ANGLE_DEG,
+    conda:
+        "../envs/foldshell.yaml"
+    script:
+        "../scripts/kinematics.py"

@@ -5,9 +5,11 @@ rule pattern:
         library=library("pattern"),
     output:
         fold=f"{RESULTS}/{{design}}/pattern/crease_pattern.fold",
+        dxf=f"{RESULTS}/{{design}}/pattern/crease_pattern.dxf",
+        svg=f"{RESULTS}/{{design}}/pattern/crease_pattern.svg",
     params:
         **of_design("pattern", "surface", "span_m", "height_m", "zigzag", "strip"),
-        sector_angle_deg=SETTINGS.pattern.sector_angle * 180 / 3.141592653589793,
+        sector_angle_deg=SECTOR_ANGLE_DEG,
     conda:
         "../envs/foldshell.yaml"
     script:
