@@ -23,12 +23,12 @@ def main(
     *,
     design: str,
     span_m: float,
+    pattern: str,
     settings: Mapping[str, Any],
 ) -> None:
     """Write design.vtu, design_lines.vtu and the PNG files of `pictures`, named as in `PICTURES`.
 
-    `settings` are the parameters of the stages `size` and `figures`; report_path is
-    final.json.
+    `settings` are the parameters of stages `size` and `figures`; report_path is final.json.
     """
     state = read_state(
         design, mesh_path, folded_path, final_path, report_path, settings["combinations"]
@@ -37,7 +37,7 @@ def main(
     elasticity = Elasticity(material["youngs_modulus"], material["poissons_ratio"])
     write_design_vtu(vtu_path, state, elasticity, sizing["classes"])
     limits = Limits(sizing["utilization_max"], sizing["displacement_limit_span_over"])
-    subject = make_subject(state, span_m, limits, elasticity)
+    subject = make_subject(state, span_m, limits, elasticity, pattern != "smooth")
     write_lines_vtu(lines_path, subject)
     size = (figures["width_px"], figures["height_px"])
     for name, picture in draw_design(subject, size, tuple(pictures)).items():

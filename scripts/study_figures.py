@@ -37,10 +37,10 @@ def main(
         paths = [Path(results, design.name, file) for file in FILES]
         state = read_state(design.name, *paths, settings["combinations"])
         if state.utilization is not None:
-            share = utilization_shares(state.utilization, cell_area(state))
-            design = replace(design, share=share)
+            design = replace(design, share=utilization_shares(state.utilization, cell_area(state)))
         designs.append(design)
-        tiles.append(make_tile(make_subject(state, design.number["span_m"], limits, elasticity)))
+        span, folded = design.number["span_m"], design.pattern != "smooth"
+        tiles.append(make_tile(make_subject(state, span, limits, elasticity, folded)))
     for name, comparison in COMPARISONS.items():
         figure = draw_comparison(designs, comparison, limits.displacement_limit_span_over)
         save_figure(figure, charts[name])

@@ -22,7 +22,7 @@ def run(folder, paths, names=NAMES):
     """Call the script's main on the files of a case; return the pictures by name."""
     pictures = {name: folder / f"figures/{name}.png" for name in names}
     vtu = (folder / "design.vtu", folder / "design_lines.vtu")
-    draw.main(*paths, *vtu, pictures, design="case", span_m=5.0, settings=SETTINGS)
+    draw.main(*paths, *vtu, pictures, design="case", span_m=5.0, pattern="miura", settings=SETTINGS)
     return {name: np.asarray(Image.open(path)) for name, path in pictures.items()}
 
 

@@ -1,5 +1,6 @@
 """Crease lines of a sheet as polylines that follow its result mesh, bent or not."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -22,21 +23,24 @@ class Creases:
     border: np.ndarray
 
 
-def find_creases(cells: ShellMesh, folded: dict[str, np.ndarray]) -> Creases:
+def find_creases(
+    cells: ShellMesh, folded: Mapping[str, np.ndarray], creased: bool = True
+) -> Creases:
     """Sort panel edges by the way they fold; neutral folds are left out.
 
     Parameters
     ----------
     cells : result mesh over the facets of the folded sheet
     folded : arrays vertices, zigzag, strip of folded.npz
+    creased : False where a smooth surface bends at its panels' borders, which are no creases
     """
     grid = build_grid(int(folded["zigzag"].max()) + 1, int(folded["strip"].max()) + 1)
     fold = measure_folds(folded["vertices"], grid)
     edge = slice(0, grid.neutral.start)
     nodes = cells.pair_nodes[_find_pairs(cells, grid.edges[edge])]
     border = grid.assignments[edge] == "B"
-    mountain = ~border & (fold[edge] < -FOLD_MIN)
-    valley = ~border & (fold[edge] > FOLD_MIN)
+    inner = ~border & creased
+    mountain, valley = inner & (fold[edge] < -FOLD_MIN), inner & (fold[edge] > FOLD_MIN)
     flat = ~border & ~mountain & ~valley
     return Creases(nodes[mountain], nodes[valley], nodes[flat], nodes[border])
 

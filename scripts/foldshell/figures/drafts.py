@@ -73,10 +73,15 @@ class Draft:
 
 
 def make_subject(
-    state: DesignState, span: float, limits: Limits, elasticity: Elasticity
+    state: DesignState,
+    span: float,
+    limits: Limits,
+    elasticity: Elasticity,
+    folded: bool = True,
 ) -> Subject:
-    """Find the creases of a state."""
-    return Subject(state, find_creases(state.cells, state.folded), span, limits, elasticity)
+    """Find the creases of a state; those of a smooth shell (`folded` False) are panel borders."""
+    creases = find_creases(state.cells, state.folded, folded)
+    return Subject(state, creases, span, limits, elasticity)
 
 
 def draft_field(

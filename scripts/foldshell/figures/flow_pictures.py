@@ -33,6 +33,8 @@ PAPER = (240, 240, 236)
 WIDTHS = ((0.04, 1.5), (0.2, 3.0), (0.5, 5.0))
 """Least share of the large forces, and width in pixels of the lines from there on."""
 LARGE_PERCENTILE = 95.0
+FORCE_MIN = 1e-6
+"""Membrane forces below this, kN/m, are rounding errors."""
 MODE_SHARE = 0.05
 """A buckling mode is drawn this share of the span large."""
 ISOLINES = 5
@@ -58,6 +60,9 @@ def draft_force_lines(subject: Subject) -> Draft:
     name, lines = subject.force_lines
     segments, force = split_lines(lines)
     large = float(np.percentile(np.abs(force), LARGE_PERCENTILE)) if force.size else 0.0
+    if large < FORCE_MIN:
+        words = f"no membrane forces under {name}: it carries by bending alone"
+        return draft_nothing(subject, "Force lines", words)
     keys = [Key("solid", "tension", TENSION), Key("solid", "compression", COMPRESSION)]
     facts = f"trajectories of the principal membrane forces of {name}, traced across the folds"
     bounds = ", ".join(f"{share * large:.0f}" for share, _ in WIDTHS)

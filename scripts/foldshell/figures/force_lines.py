@@ -19,6 +19,10 @@ OPPOSITE = np.array([2, 0, 1])
 TURN_MIN = 0.35
 """Least cosine between a line's direction and the principal direction beyond an edge."""
 
+SPREAD_MIN = 0.1
+"""Least difference of the principal forces, as a share of the larger, that has a direction."""
+WINDING_MAX = 1.25 * np.pi
+"""Angle after which a line that turns one way has come round and ends."""
 SPACINGS_MIN = 3.5
 """Least length of a line, in spacings."""
 
@@ -38,13 +42,17 @@ class ForceField:
 
     def principal(
         self, element: np.ndarray, place: np.ndarray, family: int
-    ) -> tuple[np.ndarray, np.ndarray]:
-        """Return value (K,) and local direction (K, 2); family 0: larger force."""
+    ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Return value (K,), local direction (K, 2) and whether there is one (K,).
+
+        Family 0 is the larger force. Where both are nearly equal no direction is principal.
+        """
         xx, yy, xy = self.evaluate(element, place).T
         angle = np.arctan2(2 * xy, xx - yy) / 2 + family * np.pi / 2
-        radius = np.hypot((xx - yy) / 2, xy)
-        value = (xx + yy) / 2 + (radius if family == 0 else -radius)
-        return value, np.stack([np.cos(angle), np.sin(angle)], axis=1)
+        mean, radius = (xx + yy) / 2, np.hypot((xx - yy) / 2, xy)
+        value = mean + (radius if family == 0 else -radius)
+        distinct = 2 * radius >= SPREAD_MIN * (np.abs(mean) + radius)
+        return value, np.stack([np.cos(angle), np.sin(angle)], axis=1), distinct
 
     def position(self, element: np.ndarray, place: np.ndarray) -> np.ndarray:
         """Return points in space (K, 3) m."""
@@ -89,10 +97,10 @@ def trace_force_lines(
 ) -> list[ForceLine]:
     """Return lines of one family, about `spacing` m apart, longest first.
 
-    A line starts in the middle of each element, both ways, in steps of at most `step` m; it ends
-    at a border, where the direction turns by more than 70 degrees at a fold, or at the end of
-    `steps_max` steps. Where it comes into a box of side `spacing` that a longer line has passed,
-    it is cut.
+    A line starts in the middle of each element, both ways, in steps of at most `step` m. It ends
+    at a border, where the direction turns by more than 70 degrees at a fold, where the principal
+    forces are equal, where it has come round, or after `steps_max` steps. Where it comes into a
+    box of side `spacing` that a longer line has passed, it is cut.
     """
     count = len(field.mesh.elements)
     element = np.concatenate([np.arange(count)] * 2)
@@ -114,41 +122,46 @@ def trace_force_lines(
 def _walk(field, family, element, sense, step, steps_max):
     """Walk all lines at once; return points (n, K, 3), forces (n, K), points of each line (K,)."""
     place = np.full((len(element), 2), 1 / 3)
-    value, direction = field.principal(element, place, family)
+    value, direction, distinct = field.principal(element, place, family)
     direction = sense[:, None] * direction
+    winding = np.zeros(len(element))
     neighbour = find_neighbours(field.mesh)
     points = [field.position(element, place)]
     forces = [value]
     lengths = np.ones(len(element), dtype=int)
-    active = np.arange(len(element))
+    active = np.flatnonzero(distinct)
     for _ in range(steps_max):
+        if not active.size:
+            break
         here = _step(field, family, neighbour, element[active], place[active],
                      direction[active], step)  # fmt: skip
-        going, element[active], place[active], direction[active], value = here
+        going, element[active], place[active], direction[active], value, turn = here
+        winding[active] += turn
+        going &= np.abs(winding[active]) < WINDING_MAX
         points.append(points[-1].copy())
         forces.append(forces[-1].copy())
         points[-1][active] = field.position(element[active], place[active])
         forces[-1][active] = value
         lengths[active] += 1
         active = active[going]
-        if not active.size:
-            break
     return np.array(points), np.array(forces), lengths
 
 
 def _step(field, family, neighbour, element, place, direction, step):
     """One midpoint step, not beyond the element's edge, and over to the neighbour there."""
     half, _ = _advance(field, element, place, direction, step / 2)
-    _, middle = field.principal(element, half, family)
+    _, middle, _ = field.principal(element, half, family)
     middle = _align(middle, direction)
     place, edge = _advance(field, element, place, middle, step)
-    value, after = field.principal(element, place, family)
-    direction = _align(after, middle)
-    going = np.ones(len(element), dtype=bool)
+    value, after, going = field.principal(element, place, family)
+    after = _align(after, middle)
+    turn = _angle(direction, middle) + _angle(middle, after)
+    direction = after
     out = np.flatnonzero(edge >= 0)
     crossed = _cross(field, family, neighbour, element[out], place[out], direction[out], edge[out])
-    going[out], element[out], place[out], direction[out] = crossed
-    return going, element, place, direction, value
+    goes_on, element[out], place[out], direction[out] = crossed
+    going[out] &= goes_on
+    return going, element, place, direction, value, turn
 
 
 def _advance(field, element, place, direction, step):
@@ -182,7 +195,7 @@ def _cross(field, family, neighbour, element, place, direction, edge):
     bary[row, EDGES[gate, 0]] = share
     bary[row, EDGES[gate, 1]] = 1 - share
     entry = bary[:, 1:]
-    _, principal = field.principal(target, entry, family)
+    _, principal, _ = field.principal(target, entry, family)
     principal = _align(principal, turned)
     cosine = np.einsum("ka,ka->k", principal, turned)
     inward = -np.einsum("ka,ka->k", principal, new_normal)
@@ -198,6 +211,12 @@ def _cross(field, family, neighbour, element, place, direction, edge):
 
 def _turn_left(vector: np.ndarray) -> np.ndarray:
     return np.stack([-vector[:, 1], vector[:, 0]], axis=1)
+
+
+def _angle(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+    """Return the signed angles (K,) from unit vectors (K, 2) to others."""
+    sine = first[:, 0] * second[:, 1] - first[:, 1] * second[:, 0]
+    return np.arctan2(sine, np.einsum("ka,ka->k", first, second))
 
 
 def _align(direction: np.ndarray, wanted: np.ndarray) -> np.ndarray:

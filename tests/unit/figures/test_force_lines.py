@@ -137,3 +137,28 @@ def test_thinning_keeps_the_long_line_and_cuts_the_short():
     assert [len(line.points) for line in thin_out([short, long], 0.5)] == [40]
     away = ForceLine(long.points + np.array([0, 5, 0]), np.ones(40), 0)
     assert len(thin_out([short, long, away], 0.5)) == 2
+
+
+def test_equal_forces_have_no_lines():
+    """The same compression in all directions: no direction is principal."""
+    field = field_of(
+        square_mesh(), lambda points: np.broadcast_to(-3 * np.eye(3), (len(points), 3, 3))
+    )
+    assert trace_force_lines(field, 0, 0.05, 0.02) == []
+
+
+def test_a_closed_line_ends_when_it_has_come_round():
+    """Hoop tension about the middle: no line turns more than 5/4 pi each way."""
+    centre = np.array([0.5, 0.5, 0])
+
+    def hoop(points):
+        arm = np.cross([0, 0, 1.0], points - centre)
+        return arm[:, :, None] * arm[:, None, :]
+
+    lines = trace_force_lines(field_of(square_mesh(), hoop), 0, 0.05, 0.02)
+    assert lines
+    for line in lines:
+        step = np.diff(line.points[:, :2], axis=0)
+        step = step[np.linalg.norm(step, axis=1) > 1e-9]
+        turn = np.abs(np.diff(np.unwrap(np.arctan2(step[:, 1], step[:, 0])))).sum()
+        assert turn < 2.6 * np.pi

@@ -60,6 +60,14 @@ def test_flat_sheet_has_no_mountains(tmp_path):
     assert len(creases.flat) > 0
 
 
+def test_smooth_shell_has_panel_borders(tmp_path):
+    """A sheet that bends at its panels' borders is told to have no creases there."""
+    state = make_state(tmp_path)
+    creases = find_creases(state.cells, state.folded, creased=False)
+    assert len(creases.mountain) == len(creases.valley) == 0
+    assert len(creases.flat) == 4 * 4 + 5 * 3
+
+
 def test_dashes_cover_their_share_of_a_bent_line():
     """Dashes of 55 % on a straight line of three unequal nodes lie on it and add up to 55 %."""
     line = np.array([[[0.0, 0, 0], [1, 1, 0], [2, 2, 0], [3, 3, 0]]])

@@ -128,6 +128,12 @@ def test_tension_and_compression_have_their_colours(tmp_path):
     assert lines[COMPRESSION] > 20
 
 
+def test_sheet_that_carries_by_bending_has_no_force_lines(tmp_path):
+    """A flat sheet that only moves down has no membrane force; the picture says so."""
+    draft = draft_force_lines(subject_of(tmp_path, folded=False))
+    assert "bending alone" in draft.caption.lines[0]
+
+
 def test_design_without_results_says_what_is_missing(tmp_path):
     """An unstable design: thickness is drawn, the others say why they are empty."""
     subject = subject_of(
