@@ -24,6 +24,7 @@ rule draw:
 
 
 CHARTS = ["supports", "surface", "curvature", "density_zigzag", "density_strip", "axes"]
+CHARTS += ["planarity_utilization"]
 SHEETS = ["all_thickness", "all_utilization"]
 
 
@@ -35,7 +36,8 @@ rule study_figures:
         designs=[
             f"{RESULTS}/{name}/{file}"
             for name in names_of_tag(SETTINGS.study)
-            for file in ("shell/mesh.npz", "folded/folded.npz", "sizing/final.npz")
+            for file in ("shell/mesh.npz", "folded/folded.npz", "sizing/final.npz",
+                         "sizing/final.json")
         ],
         library=library("study_figures"),
     output:

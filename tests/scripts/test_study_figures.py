@@ -6,7 +6,7 @@ import numpy as np
 from PIL import Image
 
 import study_figures
-from foldshell.figures.study_data import COMPARISONS, NUMBERS
+from foldshell.figures.study_data import NUMBERS
 from unit.figures.figure_cases import COMBINATIONS, write_case
 
 SETTINGS = {
@@ -37,7 +37,7 @@ def write_results(folder, **designs):
 def test_all_figures_are_written(tmp_path):
     """Also with a design without utilization, and for comparisons that nobody is in."""
     write_results(tmp_path, all={}, strip={"utilization": None, "move": lambda x: np.nan * x})
-    charts = {n: [tmp_path / f"{n}.png", tmp_path / f"{n}.svg"] for n in (*COMPARISONS, "axes")}
+    charts = {n: [tmp_path / f"{n}.png", tmp_path / f"{n}.svg"] for n in study_figures.CHARTS}
     sheets = {name: tmp_path / f"all_{name}.png" for name in ("thickness", "utilization")}
     study_figures.main(tmp_path / "summary.csv", tmp_path, charts, sheets, settings=SETTINGS)
     for paths in charts.values():

@@ -133,6 +133,7 @@ def draw_bars(
     turned = max(len(name) for name in values) * len(values) > 26
     axes.set_xticks(range(len(values)), values, rotation=30 if turned else 0,
                     ha="right" if turned else "center", rotation_mode="anchor")  # fmt: skip
+    axes.set_xlim(-0.6, len(series) - 0.4)
     axes.margins(y=0.12)
 
 

@@ -2,12 +2,14 @@
 
 import csv
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from foldshell.figures.fields import cell_area
+from foldshell.figures.state import DesignState
 from foldshell.study.errors import InputError
 
 NUMBERS = ("span_m", "height_m", "zigzag", "strip", "volume_per_area_m", "utilization_mean",
@@ -21,7 +23,8 @@ UTILIZATION_END = 2.0
 @dataclass(frozen=True)
 class StudyDesign:
     """One row of the summary; numbers that are missing are nan. `share` (B,) is the share of the
-    mesh area in each bin of utilization, None without utilization."""
+    mesh area in each bin of utilization, `panels` (2, P) planarity (-) and mean utilization (-) of
+    each panel; both None without utilization."""
 
     name: str
     tags: tuple[str, ...]
@@ -31,6 +34,7 @@ class StudyDesign:
     state: str
     number: Mapping[str, float]
     share: np.ndarray | None = None
+    panels: np.ndarray | None = None
 
     @property
     def span_height(self) -> str:
@@ -119,6 +123,15 @@ def _read_row(path: str | Path, row: Mapping[str, Any]) -> StudyDesign:
     )
 
 
+def add_fields(design: StudyDesign, state: DesignState) -> StudyDesign:
+    """Return the design with what its final state says about cells and panels."""
+    if state.utilization is None:
+        return design
+    share = utilization_shares(state.utilization, cell_area(state))
+    panels = np.stack([state.folded["planarity"], state.final["utilization_panel_mean"]])
+    return replace(design, share=share, panels=panels)
+
+
 def utilization_edges() -> np.ndarray:
     """Return the edges (B + 1,) of the bins; the last bin has no upper end."""
     count = round(UTILIZATION_END / UTILIZATION_BIN)
@@ -130,6 +143,16 @@ def utilization_shares(values: np.ndarray, area: np.ndarray) -> np.ndarray:
     edges = utilization_edges()
     number = np.searchsorted(edges, values, side="right") - 1
     return np.bincount(number, area, len(edges) - 1) / area.sum()
+
+
+def rank_correlation(first: np.ndarray, second: np.ndarray) -> float:
+    """Return Spearman's rank correlation, nan where one of the two does not vary."""
+    from scipy.stats import rankdata
+
+    ranks = rankdata(first), rankdata(second)
+    if any(np.ptp(rank) == 0 for rank in ranks):
+        return float("nan")
+    return float(np.corrcoef(*ranks)[0, 1])
 
 
 def sort_into_columns(

@@ -1,6 +1,7 @@
 """Figures over all designs: sorting, histogram, and what is drawn for missing values."""
 
 import csv
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,11 +12,17 @@ from foldshell.figures.charts import (
     draw_comparison,
     save_figure,
 )
+from foldshell.figures.planarity_chart import (
+    describe_correlation,
+    draw_planarity_chart,
+    group_medians,
+)
 from foldshell.figures.study_data import (
     COMPARISONS,
     NUMBERS,
     StudyDesign,
     pair_supports,
+    rank_correlation,
     read_summary,
     sort_into_columns,
     utilization_edges,
@@ -150,3 +157,35 @@ def test_damaged_summary_is_named(tmp_path):
     (tmp_path / "summary.csv").write_text("design,tags\na,x\n")
     with pytest.raises(InputError, match="no column"):
         read_summary(tmp_path / "summary.csv")
+
+
+def test_rank_correlation_sees_order_alone():
+    """exp keeps the order, minus turns it round, a constant has none."""
+    values = np.random.default_rng(8).normal(size=50)
+    assert rank_correlation(values, np.exp(values)) == pytest.approx(1)
+    assert rank_correlation(values, -(values**3)) == pytest.approx(-1)
+    assert np.isnan(rank_correlation(values, np.ones(50)))
+
+
+def test_correlation_within_designs_is_not_that_of_all():
+    """Two designs, each falling, the second higher in both: pooled it rises, within it falls."""
+    fall = np.stack([np.linspace(0, 0.1, 20), np.linspace(0.2, 0.1, 20)])
+    words = describe_correlation([fall, fall + 1])
+    assert words.endswith("within designs -1.00")
+    assert float(words.split()[2].rstrip(";")) > 0.4
+
+
+def test_medians_of_groups():
+    """Of 100 values on a line each tenth has its middle as median."""
+    x, y = group_medians(np.arange(100.0)[::-1], 2 * np.arange(100.0)[::-1])
+    assert np.array_equal(x, np.arange(4.5, 100, 10))
+    assert np.array_equal(y, 2 * x)
+
+
+def test_baselines_stay_out_of_the_planarity_chart():
+    """Smooth and flat sheets are not folded: without others the chart says there is nothing."""
+    panels = np.random.default_rng(9).uniform(size=(2, 30))
+    smooth = replace(design(), pattern="smooth", panels=panels)
+    assert "no folded design" in draw_planarity_chart([smooth]).texts[0].get_text()
+    figure = draw_planarity_chart([smooth, replace(design(), panels=panels)])
+    assert figure.axes[0].get_title().startswith("arch\nrank correlation")
