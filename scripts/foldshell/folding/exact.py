@@ -75,13 +75,15 @@ def solve_exactly(
     Their weight grows tenfold a stage, 1 to 1e4 (1e7 in rigid mode, where the target pulls
     against them); each stage starts from the last and shares one symbolic factorisation.
     """
+    # In rigid mode the target is only a pull, so its minimum is worth finding more closely.
+    tolerance = 1e-3 if rigid else 1e-2
     soft = _soft_terms(sheet, target, attract, weights, rigid)
     vertices, iterations, equations = start, 0, None
     for power in range(8 if rigid else 5):
         terms = [*soft, *_constraints(sheet, target, attract, 10.0**power, rigid)]
         equations = equations or NormalEquations([t.columns for t in terms], start.size)
         minimum = minimise_terms(
-            terms, vertices, max_iterations=40, cost_tolerance=1e-3,
+            terms, vertices, max_iterations=40, cost_tolerance=tolerance,
             step_tolerance=1e-9 * target.span, equations=equations,
         )  # fmt: skip
         vertices, iterations = minimum.vertices, iterations + minimum.iterations

@@ -14,10 +14,13 @@ ENGINES = ("levenberg_marquardt", "averaged_projections")
 
 @dataclass(frozen=True)
 class Limits:
-    """What a folded sheet must keep to be called ok."""
+    """What a folded sheet must keep to be called ok.
+
+    `plan_coverage` is the share of what the sheet covers as it is first laid on the target.
+    """
 
     rms_over_span: float = 2e-3
-    plan_coverage: float = 0.75
+    plan_coverage: float = 0.8
 
 
 @dataclass(frozen=True)
