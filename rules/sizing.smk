@@ -107,11 +107,32 @@ rule resize:
         "../scripts/resize.py"
 
 
+rule group:
+    message:
+        "{wildcards.design}: thickness classes"
+    input:
+        mesh=rules.mesh.output.mesh,
+        analyses=iterations,
+        library=library("group"),
+    output:
+        json=f"{LOOP}/classes.json",
+        arrays=f"{LOOP}/classes.npz",
+    params:
+        **of_design("span_m"),
+        classes=SETTINGS.sizing.classes,
+        settings=of_stage("analyse"),
+    conda:
+        "../envs/foldshell.yaml"
+    script:
+        "../scripts/group.py"
+
+
 rule size:
     message:
         "{wildcards.design}: history and final state"
     input:
         analyses=iterations,
+        classes=[rules.group.output.json, rules.group.output.arrays],
         library=library("size"),
     output:
         csv=f"{LOOP}/history.csv",

@@ -4,14 +4,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from foldshell.shell.analysis import AnalysisOptions, build_model
-from foldshell.shell.loads import Loads
-from foldshell.shell.material import Material
-from foldshell.shell.mesh_files import read_mesh
-from foldshell.sizing.criteria import StopRule
-from foldshell.sizing.iteration import IterationTask, LoadPlan, run_iteration
-from foldshell.sizing.step import NEED_CONSTRAINTS
-from foldshell.study.errors import InputError, user_errors
+from foldshell.sizing.case import make_stop_rule, open_case
+from foldshell.sizing.iteration import IterationTask
+from foldshell.study.errors import user_errors
 from foldshell.study.files import hash_file, read_arrays, read_json, write_arrays, write_json
 from foldshell.workbook.edits import keep_edited
 from foldshell.workbook.panels import make_panel_grid
@@ -32,24 +27,14 @@ def main(
     previous: tuple[str, str] | None = None,
 ) -> None:
     """Write analysis.npz, then analysis.json; `previous` names those of the iteration before."""
-    sizing = settings["sizing"]
-    rule = StopRule(**{name: sizing[name] for name in StopRule.__dataclass_fields__})
+    limits = make_stop_rule(settings["sizing"])
     edited = keep_edited(workbook_path)
     grid = make_panel_grid(zigzag, strip)
-    thickness = read_thickness(workbook_path, grid, rule.least_thickness, rule.largest_thickness)
-    mesh, arrays = read_mesh(mesh_path)
-    material = Material(**settings["material"])
-    try:
-        model = build_model(mesh, arrays["supported_nodes"], material.poissons_ratio)
-    except ValueError as error:
-        raise InputError(f"{mesh_path}: {error}") from None
+    bounds = limits.least_thickness, limits.largest_thickness
+    thickness = read_thickness(workbook_path, grid, *bounds)
     before = (read_json(previous[0]), read_arrays(previous[1])) if previous else ({}, {})
-    plan = LoadPlan(Loads(**settings["loads"]), **settings["combinations"])
-    options = AnalysisOptions(**settings["analysis"])
     task = IterationTask(iteration, span_m, thickness, *before)
-    factor_min = sizing["thinning_buckling_factor_min"]
-    factor_min = factor_min if sizing["rule"] in NEED_CONSTRAINTS else None
-    report, fields = run_iteration(model, task, material, plan, options, rule, factor_min)
+    report, fields = open_case(mesh_path, settings).run(task)
     report["edited"] = edited
     report["workbook_sha256"] = hash_file(workbook_path)
     write_arrays(arrays_path, fields)

@@ -10,7 +10,7 @@ from typing import Any
 from foldshell.sizing.gather import gather_iterations, remove_superseded
 from foldshell.sizing.report import make_design_report
 from foldshell.study.errors import user_errors
-from foldshell.study.files import atomic_path, write_json
+from foldshell.study.files import atomic_path, read_arrays, read_json, write_json
 from foldshell.workbook.design import write_design
 from foldshell.workbook.history import write_history, write_history_csv
 
@@ -19,6 +19,7 @@ PACKAGES = ("numpy", "scipy", "cvxopt", "snakemake", "openpyxl", "XlsxWriter")
 
 def main(
     json_paths: Sequence[str | Path],
+    classes_paths: Sequence[str | Path],
     csv_path: str | Path,
     history_path: str | Path,
     design_path: str | Path,
@@ -31,15 +32,14 @@ def main(
 ) -> None:
     """Write history.csv, history.xlsx, design.xlsx and copies of the last analysis.
 
-    Iterations that an earlier run left behind the last one are removed; edited workbooks among
-    them are kept under sizing/superseded.
-    """
+    `classes_paths` are classes.json and classes.npz. Iterations left behind the last one are
+    removed; edited workbooks among them are kept under sizing/superseded."""
     iterations = gather_iterations(json_paths, design, settings["sizing"])
-    versions = {"python": platform.python_version(), **{name: version(name) for name in PACKAGES}}
-    report = make_design_report(iterations, design, settings, settings_hash, versions)
-    limit = settings["sizing"]["utilization_max"]
+    versions = {"python": platform.python_version()} | {name: version(name) for name in PACKAGES}
+    grouped = read_json(classes_paths[0]), read_arrays(classes_paths[1])["panel_class"]
+    report = make_design_report(iterations, design, settings, settings_hash, versions, *grouped)
     write_history_csv(csv_path, iterations.history)
-    write_history(history_path, iterations.history, report.verdict, limit)
+    write_history(history_path, iterations.history, report.verdict, report.utilization_max)
     write_design(design_path, report)
     with atomic_path(final_arrays_path) as temporary:
         shutil.copyfile(iterations.last_arrays, temporary)
@@ -51,6 +51,7 @@ if "snakemake" in globals():
     with user_errors():
         main(
             snakemake.input.analyses,  # noqa: F821
+            snakemake.input.classes,  # noqa: F821
             snakemake.output.csv,  # noqa: F821
             snakemake.output.history,  # noqa: F821
             snakemake.output.design,  # noqa: F821

@@ -2,10 +2,12 @@
 
 import csv
 
+import numpy as np
 import openpyxl
 import pytest
 
 import analyse
+import group
 import resize
 import size
 import start
@@ -46,17 +48,20 @@ def loop(tmp_path_factory):
     return folder, [files[0] for files in found]
 
 
-def _size(folder, analyses):
+def _size(folder, analyses, mesh=None):
+    classes = folder / "classes.json", folder / "classes.npz"
+    if mesh:
+        group.main(mesh, analyses, *classes, span_m=SPAN, classes=3, settings=stage("analyse"))
     size.main(
-        analyses, folder / "history.csv", folder / "history.xlsx", folder.parent / "design.xlsx",
-        folder / "final.json", folder / "final.npz", design=DESIGN, settings=stage("size"),
-        settings_hash="0" * 12,
+        analyses, classes, folder / "history.csv", folder / "history.xlsx",
+        folder.parent / "design.xlsx", folder / "final.json", folder / "final.npz",
+        design=DESIGN, settings=stage("size"), settings_hash="0" * 12,
     )  # fmt: skip
 
 
 def test_loop_ends_and_is_gathered(loop):
     folder, analyses = loop
-    _size(folder, analyses)
+    _size(folder, analyses, folder.parent / "mesh.npz")
     last = read_json(analyses[-1])
     assert last["verdict"] in ("converged", "at_minimum_thickness")
     assert read_json(folder / "final.json") == last
@@ -68,6 +73,31 @@ def test_loop_ends_and_is_gathered(loop):
     assert final["thickness"].shape == (PANELS,) and "utilization_cell" in final
     book = openpyxl.load_workbook(folder.parent / "design.xlsx", read_only=True)
     assert {"summary", "panels", "history", "loads", "notes"} <= set(book.sheetnames)
+    rows = list(book["panels"].iter_rows(values_only=True))
+    column = rows[0].index("class")
+    written = read_arrays(folder / "classes.npz")["panel_class"]
+    assert [row[column] for row in rows[2:]] == written.tolist()
+
+
+def test_classes_cover_what_is_needed(loop):
+    """No panel gets thinner, at most three thicknesses remain, and the volume adds up."""
+    folder, analyses = loop
+    classes = folder / "c.json", folder / "c.npz"
+    mesh = folder.parent / "mesh.npz"
+    group.main(mesh, analyses, *classes, span_m=SPAN, classes=3, settings=stage("analyse"))
+    report, arrays = read_json(classes[0]), read_arrays(classes[1])
+    needed = read_arrays(analyses[-1].with_suffix(".npz"))["thickness"]
+    assert (arrays["thickness"] >= needed).all()
+    assert len(np.unique(arrays["thickness"])) == len(report["classes"]) <= 3
+    assert sum(item["panels"] for item in report["classes"]) == PANELS
+    volume = sum(item["thickness_m"] * item["area_m2"] for item in report["classes"])
+    assert volume == pytest.approx(report["volume_m3"], rel=1e-10)
+    assert report["added_volume_relative"] == pytest.approx(
+        volume / report["ungrouped_volume_m3"] - 1, abs=1e-10
+    )
+    assert report["verdict"] in ("holds", "fails") and set(report["criteria"]) == {
+        "utilization_max", "displacement_vertical_m",
+    }  # fmt: skip
 
 
 def test_iterations_left_over_are_removed(loop):

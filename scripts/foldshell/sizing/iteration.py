@@ -102,6 +102,7 @@ def run_iteration(
     }
     if usable:
         report |= _headline(model, result, thickness, material, plan, utilization, panels)
+        report["panels_at_bound"] = _count_at_bound(task.thickness, rule)
         report["panels_above_one"] = int((panels[rule.measure] > rule.utilization_max).sum())
         arrays |= {f"utilization_{name}": values for name, values in panels.items()}
     if factor_min is not None and result.state == "ok" and verdict.verdict == "continue":
@@ -113,6 +114,11 @@ def run_iteration(
         arrays |= _final_fields(model, result, plan, utilization)
     report["seconds"] = time.perf_counter() - began
     return report, arrays
+
+
+def _count_at_bound(thickness: np.ndarray, rule: StopRule) -> int:
+    at_bound = (thickness <= rule.least_thickness) | (thickness >= rule.largest_thickness)
+    return int(at_bound.sum())
 
 
 def _factors(result: AnalysisResult) -> dict[str, float | None]:

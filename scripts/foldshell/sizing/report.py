@@ -3,6 +3,8 @@
 from collections.abc import Mapping
 from typing import Any
 
+import numpy as np
+
 from foldshell.sizing.gather import Iterations
 from foldshell.workbook.design import DesignReport
 from foldshell.workbook.history import find_least_factor
@@ -23,6 +25,7 @@ HEADLINES = (
     "utilization_mean",
     "utilization_panel_mean_max",
     "panels_above_one",
+    "panels_at_bound",
     "displacement_vertical_max_m",
     "reaction_imbalance",
     "dofs",
@@ -36,8 +39,13 @@ def make_design_report(
     settings: Mapping[str, Any],
     settings_hash: str,
     versions: Mapping[str, str],
+    grouped: Mapping[str, Any],
+    panel_class: np.ndarray,
 ) -> DesignReport:
-    """Put the last analysis, the panels, the history and the settings together."""
+    """Put the last analysis, the panels, the history and the settings together.
+
+    `grouped` are the contents of classes.json, `panel_class` (P,) the class of each panel.
+    """
     last = iterations.analyses[-1]
     verdict = {
         **design,
@@ -46,6 +54,7 @@ def make_design_report(
         "iterations": len(iterations.analyses),
         **{name: last.get(name) for name in HEADLINES},
         "buckling_factor_min": find_least_factor(last),
+        **_summarise_classes(grouped),
         "settings_hash": settings_hash,
     }
     return DesignReport(
@@ -55,6 +64,7 @@ def make_design_report(
         grid=make_panel_grid(design["zigzag"], design["strip"]),
         thickness=iterations.thickness,
         utilization=iterations.utilization,
+        thickness_class=panel_class,
         history=iterations.history,
         loads={f"{name}_kn_m2" if name in ("superimposed_dead", "live", "wind") else name: value
                for name, value in settings["loads"].items()},
@@ -64,3 +74,20 @@ def make_design_report(
         sources=SOURCES,
         utilization_max=settings["sizing"]["utilization_max"],
     )  # fmt: skip
+
+
+def _summarise_classes(grouped: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the lines on thickness classes: each with its thickness, and the grouped design."""
+    classes = {
+        f"class_{item['class']}_thickness_m": item["thickness_m"] for item in grouped["classes"]
+    }
+    return {
+        **classes,
+        "grouped_verdict": grouped["verdict"],
+        "grouped_reason": grouped["reason"],
+        "grouped_volume_m3": grouped["volume_m3"],
+        "grouped_added_volume_relative": grouped["added_volume_relative"],
+        "grouped_utilization_panel_mean_max": grouped.get("utilization_panel_mean_max"),
+        "grouped_displacement_vertical_max_m": grouped.get("displacement_vertical_max_m"),
+        "grouped_buckling_factor_min": find_least_factor(grouped),
+    }

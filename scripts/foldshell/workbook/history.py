@@ -20,6 +20,7 @@ HISTORY_KEYS = (
     "utilization_p99",
     "utilization_panel_mean_max",
     "panels_above_one",
+    "panels_at_bound",
     "displacement_vertical_max_m",
     "displacement_limit_m",
     "buckling_factor_min",

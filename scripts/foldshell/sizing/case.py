@@ -1,0 +1,59 @@
+"""What every analysis of a design shares: its model, material, loads, options and limits."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from foldshell.shell.analysis import AnalysisOptions, ShellModel, build_model
+from foldshell.shell.loads import Loads
+from foldshell.shell.material import Material
+from foldshell.shell.mesh_files import read_mesh
+from foldshell.sizing.criteria import StopRule
+from foldshell.sizing.iteration import IterationTask, LoadPlan, run_iteration
+from foldshell.sizing.step import NEED_CONSTRAINTS
+from foldshell.study.errors import InputError
+
+
+@dataclass(frozen=True)
+class AnalysisCase:
+    """A design ready for any thickness; `factor_min` is None where no constraints are asked for."""
+
+    model: ShellModel
+    material: Material
+    plan: LoadPlan
+    options: AnalysisOptions
+    rule: StopRule
+    factor_min: float | None
+
+    def run(self, task: IterationTask) -> tuple[dict[str, Any], dict[str, Any]]:
+        """Analyse one thickness vector: contents of analysis.json and analysis.npz."""
+        return run_iteration(
+            self.model, task, self.material, self.plan, self.options, self.rule, self.factor_min
+        )
+
+
+def make_stop_rule(sizing: Mapping[str, Any]) -> StopRule:
+    """Return the limits of the loop from plain settings."""
+    return StopRule(**{name: sizing[name] for name in StopRule.__dataclass_fields__})
+
+
+def open_case(mesh_path: str | Path, settings: Mapping[str, Any]) -> AnalysisCase:
+    """Read a mesh and build what depends on it and on the plain settings of the stage `analyse`.
+
+    Raises
+    ------
+    InputError
+        for supports that leave a mechanism.
+    """
+    mesh, arrays = read_mesh(mesh_path)
+    sizing, material = settings["sizing"], Material(**settings["material"])
+    try:
+        model = build_model(mesh, arrays["supported_nodes"], material.poissons_ratio)
+    except ValueError as error:
+        raise InputError(f"{mesh_path}: {error}") from None
+    plan = LoadPlan(Loads(**settings["loads"]), **settings["combinations"])
+    asked = sizing["rule"] in NEED_CONSTRAINTS
+    factor_min = sizing["thinning_buckling_factor_min"] if asked else None
+    options = AnalysisOptions(**settings["analysis"])
+    return AnalysisCase(model, material, plan, options, make_stop_rule(sizing), factor_min)

@@ -1,0 +1,80 @@
+"""Group the sized panels into thickness classes and analyse the grouped design."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from foldshell.shell.results import panel_area
+from foldshell.sizing.case import AnalysisCase
+from foldshell.sizing.classes import ThicknessClasses, group_thicknesses
+from foldshell.sizing.iteration import IterationTask
+from foldshell.workbook.panels import round_thickness
+
+CRITERIA = ("utilization_max", "displacement_vertical_m")
+"""What a grouped design has to keep; changes of volume mean nothing to it."""
+
+LEFT_OUT = ("quiet_iterations", "utilization_min", "verdict", "reason", "criteria")
+
+
+def analyse_classes(
+    case: AnalysisCase,
+    span: float,
+    last: Mapping[str, Any],
+    arrays: Mapping[str, np.ndarray],
+    count: int,
+) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
+    """Return the contents of classes.json and classes.npz.
+
+    Parameters
+    ----------
+    span : m
+    last, arrays : contents of analysis.json and analysis.npz of the last iteration
+    count : classes allowed
+    """
+    area = panel_area(case.model)
+    groups = group_thicknesses(arrays["thickness"], area, count)
+    thickness = round_thickness(groups.thickness)
+    before = {"buckling_modes": arrays["buckling_modes"]} if "buckling_modes" in arrays else {}
+    task = IterationTask(last["iteration"], span, thickness, {}, before)
+    found, fields = replace(case, factor_min=None).run(task)
+    report = {
+        **_judge(found),
+        "count": count,
+        "classes": _describe(groups, area),
+        "ungrouped_volume_m3": last["volume_m3"],
+        "added_volume_relative": groups.added_volume / last["volume_m3"],
+        **{name: value for name, value in found.items() if name not in LEFT_OUT},
+    }
+    kept = {name: values for name, values in fields.items() if name.startswith("utilization_panel")}
+    kept |= {"thickness": thickness, "panel_class": groups.panel_class}
+    return report, kept
+
+
+def _judge(found: Mapping[str, Any]) -> dict[str, Any]:
+    """Return verdict (holds, fails or unstable), reason and criteria."""
+    if found["state"] != "ok":
+        return {"verdict": found["state"], "reason": found["reason"], "criteria": {}}
+    criteria = {name: found["criteria"][name] for name in CRITERIA}
+    broken = [
+        f"{name} {item['value']:.4g} beyond {item['limit']:.4g}"
+        for name, item in criteria.items()
+        if not item["met"]
+    ]
+    verdict = "fails" if broken else "holds"
+    reason = "; ".join(broken) or "all criteria are met"
+    return {"verdict": verdict, "reason": reason, "criteria": criteria}
+
+
+def _describe(groups: ThicknessClasses, area: np.ndarray) -> list[dict[str, Any]]:
+    """Return number, thickness (m), panels and area (m2) of each class."""
+    return [
+        {
+            "class": number,
+            "thickness_m": float(thickness),
+            "panels": int((groups.panel_class == number).sum()),
+            "area_m2": float(area[groups.panel_class == number].sum()),
+        }
+        for number, thickness in enumerate(groups.class_thickness, start=1)
+    ]
