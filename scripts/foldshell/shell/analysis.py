@@ -174,7 +174,12 @@ class _Solution:
         return membrane_forces(self._model.operators, displacement, self._thickness, self._modulus)
 
     def buckling(self, linear_cases, factors, start) -> BucklingResult:
-        matrices = assemble_geometric(self._model.operators, self.forces(linear_cases))
+        # as few geometric stiffnesses as the combinations are independent
+        mixing, weights, independent = np.linalg.svd(factors, full_matrices=False)
+        rank = int((weights > 1e-12 * weights[0]).sum())
+        factors = weights[:rank, None] * independent[:rank]
+        forces = self.forces(linear_cases @ mixing[:, :rank])
+        matrices = assemble_geometric(self._model.operators, forces)
         dofs, nodes = self._dofs, len(self._model.mesh.nodes)
         moving = np.flatnonzero(dofs < 3 * nodes)
         translations = dofs[moving]

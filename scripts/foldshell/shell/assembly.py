@@ -170,7 +170,9 @@ def _group_columns(groups: np.ndarray, size: np.ndarray) -> _GroupColumns:
     length = height[owner] - within
     indptr = np.concatenate([[0], np.cumsum(length)])
     begin = total[pointer[:-1]][owner] + within
-    indices = panel_rows[np.repeat(begin, length) + _count_up(length)]
+    shift = np.repeat(begin - indptr[:-1], length)
+    shift += np.arange(len(shift))
+    indices = panel_rows[shift]
     return _GroupColumns(indptr, indices, keys, above, indptr[first[:-1]], height)
 
 

@@ -7,12 +7,15 @@ enlarged by K^-1 K_g x of every mode x that is not yet accurate: a block Davidso
 """
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 START_SEED = 2018
 """Seed of the start vectors, fixed so that reruns agree to the last bit."""
+
+ROOM = 96
+"""Vectors for which memory is set aside at first."""
 
 
 @dataclass(frozen=True)
@@ -37,7 +40,7 @@ def find_buckling_factors(
     factors: np.ndarray,
     size: int,
     start: np.ndarray | None = None,
-    tolerance: float = 1e-3,
+    tolerance: float = 3e-3,
     iterations_max: int = 60,
 ) -> BucklingResult:
     """Find the least positive buckling factor of each combination.
@@ -50,10 +53,23 @@ def find_buckling_factors(
     start : (size, c) modes of a similar structure to begin with
     tolerance : on `change`, see `BucklingResult`
     """
+    representative, ratio = _proportional_columns(factors)
+    if len(representative) < factors.shape[1]:
+        first, which = np.unique(representative, return_inverse=True)
+        begin = None if start is None else start[:, first]
+        found = find_buckling_factors(
+            solve, apply_cases, factors[:, first], size, begin, tolerance, iterations_max
+        )
+        with np.errstate(divide="ignore"):
+            values = np.where(ratio > 0, found.factors[which] / ratio, np.inf)
+        return replace(
+            found, factors=values, modes=found.modes[:, which], change=found.change[which]
+        )
     space = _Subspace(solve, apply_cases, len(factors), size)
-    space.extend(np.random.default_rng(START_SEED).standard_normal((size, 4)))
+    begin = np.random.default_rng(START_SEED).standard_normal((size, 4))
     if start is not None:
-        space.extend(_own_images(apply_cases, start, factors))
+        begin = np.hstack([begin, _own_images(apply_cases, start, factors)])
+    space.extend(begin)
     change = np.full(factors.shape[1], np.inf)
     for _ in range(iterations_max):
         values, vectors = space.largest(factors)
@@ -72,6 +88,18 @@ def find_buckling_factors(
     return BucklingResult(result, space.basis @ vectors, change, space.solves, done)
 
 
+def _proportional_columns(factors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return for each combination the first one it is a multiple of, and that multiple.
+
+    Proportional combinations share their mode.
+    """
+    length = np.linalg.norm(factors, axis=0)
+    direction = factors / np.where(length > 0, length, 1)
+    same = (np.abs(direction[:, :, None] - direction[:, None]) < 1e-13).all(axis=0)
+    first = same.argmax(axis=1)
+    return first, length / np.where(length[first] > 0, length[first], 1)
+
+
 def _own_images(apply_cases, vectors: np.ndarray, factors: np.ndarray) -> np.ndarray:
     """Return -K_g(N_c) x_c for each column c, (size, c)."""
     return -np.einsum("asc,ac->sc", apply_cases(vectors), factors)
@@ -82,25 +110,34 @@ class _Subspace:
 
     def __init__(self, solve, apply_cases, cases: int, size: int) -> None:
         self._solve, self._apply = solve, apply_cases
-        self.basis = np.empty((size, 0))
-        self._forces = np.empty((size, 0))
+        # room for more vectors than most searches need, column by column
+        self._room = np.empty((2, ROOM, size))
+        self._count = 0
         self._projected = np.empty((cases, 0, 0))
         self.solves = 0
+
+    @property
+    def basis(self) -> np.ndarray:
+        """The basis, (size, k)."""
+        return self._room[0, : self._count].T
 
     def extend(self, forces: np.ndarray) -> np.ndarray:
         """Add Z = K^-1 forces to the basis; return Z as solved."""
         solved = self._solve(forces)
         self.solves += forces.shape[1]
-        vectors, forces = solved, forces
+        basis, own_forces = self.basis, self._room[1, : self._count].T
+        vectors = solved
         for _ in range(2):
-            overlap = self._forces.T @ vectors
-            vectors, forces = vectors - self.basis @ overlap, forces - self._forces @ overlap
+            overlap = own_forces.T @ vectors
+            vectors, forces = vectors - basis @ overlap, forces - own_forces @ overlap
             vectors, forces = _orthonormalise(vectors, forces)
-        self.basis = np.hstack([self.basis, vectors])
-        self._forces = np.hstack([self._forces, forces])
-        added = np.einsum("sk,asn->akn", self.basis, self._apply(vectors), optimize=True)
-        old = self._projected.shape[1]
-        grown = np.zeros((len(self._projected), self.basis.shape[1], self.basis.shape[1]))
+        old, new = self._count, self._count + vectors.shape[1]
+        if new > self._room.shape[1]:
+            self._room = np.concatenate([self._room, np.empty_like(self._room)], axis=1)
+        self._room[0, old:new], self._room[1, old:new] = vectors.T, forces.T
+        self._count = new
+        added = np.matmul(self._room[0, :new], self._apply(vectors))
+        grown = np.zeros((len(self._projected), new, new))
         grown[:, :old, :old] = self._projected
         grown[:, :, old:] = added
         grown[:, old:, :old] = added[:, :old].transpose(0, 2, 1)

@@ -14,9 +14,8 @@ from scipy.sparse import csr_array
 
 from foldshell.shell.reference import orthonormal_basis, reference_triangle, triangle_quadrature
 from foldshell.shell.stiffness import ShellOperators
-from foldshell.shell.stress import gather_nodes
 
-CHUNK = 64
+CHUNK = 32
 """Elements handled at once, so that temporary arrays stay in cache."""
 
 
@@ -56,20 +55,28 @@ def apply_geometric(
     tables = geometric_tables(operators.mesh.order)
     mesh, columns = operators.mesh, displacement.shape[1]
     count, nodes = mesh.elements.shape
-    moved = displacement[: 3 * len(mesh.nodes)].reshape(len(mesh.nodes), -1)
-    pulled = _pull_back(operators, force)
-    element = np.empty((count, nodes, 3 * columns))
+    points = len(tables.psi)
+    moved = displacement[: 3 * len(mesh.nodes)].reshape(-1, 3 * columns).T.copy()
+    pulled = pull_back(operators, force).transpose(3, 0, 1, 2)
+    element = np.empty((3, columns, count, nodes))
     for start in range(0, count, CHUNK):
         part = slice(start, start + CHUNK)
-        local = moved[mesh.elements[part]]
-        size = len(local)
-        slope = np.matmul(tables.slope, local).reshape(size, 2, -1, 3, columns)
-        rr, ss, rs = np.moveaxis(np.matmul(tables.psi, pulled[part])[:, :, :, None], 1, 0)
+        local = moved[:, mesh.elements[part]]
+        size = local.shape[1]
+        slope = (local.reshape(-1, nodes) @ tables.slope.T).reshape(3, columns, size, 2, points)
+        tensor = pulled[:, part].reshape(-1, pulled.shape[3]) @ tables.psi.T
+        rr, ss, rs = np.moveaxis(tensor.reshape(columns, size, 3, points), 2, 0)
         flow = np.empty_like(slope)
-        flow[:, 0] = rr * slope[:, 0] + rs * slope[:, 1]
-        flow[:, 1] = rs * slope[:, 0] + ss * slope[:, 1]
-        np.matmul(tables.slope.T, flow.reshape(size, -1, 3 * columns), out=element[part])
-    return gather_nodes(operators, element.reshape(count, nodes, 3, columns))
+        np.multiply(rr, slope[..., 0, :], out=flow[..., 0, :])
+        flow[..., 0, :] += rs * slope[..., 1, :]
+        np.multiply(ss, slope[..., 1, :], out=flow[..., 1, :])
+        flow[..., 1, :] += rs * slope[..., 0, :]
+        pushed = flow.reshape(-1, 2 * points) @ tables.slope
+        element[:, :, part] = pushed.reshape(3, columns, size, nodes)
+    flat = element.reshape(3 * columns, -1)
+    total = np.zeros((mesh.dof_count, columns))
+    total[: 3 * len(mesh.nodes)] = (operators.gather @ flat.T).reshape(-1, columns)
+    return total
 
 
 def assemble_geometric(operators: ShellOperators, force: np.ndarray) -> list[csr_array]:
@@ -82,7 +89,7 @@ def assemble_geometric(operators: ShellOperators, force: np.ndarray) -> list[csr
     count, nodes = elements.shape
     size = len(operators.mesh.nodes)
     tables = geometric_tables(operators.mesh.order)
-    pulled = _pull_back(operators, force)
+    pulled = pull_back(operators, force)
     i, j = np.divmod(np.arange(nodes**2), nodes)
     i, j = np.maximum(i, j), np.minimum(i, j)
     square = tables.product[:, i * (i + 1) // 2 + j]
@@ -97,7 +104,7 @@ def assemble_geometric(operators: ShellOperators, force: np.ndarray) -> list[csr
     return matrices
 
 
-def _pull_back(operators: ShellOperators, force: np.ndarray) -> np.ndarray:
+def pull_back(operators: ShellOperators, force: np.ndarray) -> np.ndarray:
     """Return area J^-1 N J^-T (E, 3, m, c): components rr, ss, rs of the reference directions."""
     inverse, area = operators.geometry.inverse, operators.geometry.area[:, None]
     x, y = inverse[:, :, 0], inverse[:, :, 1]

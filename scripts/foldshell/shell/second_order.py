@@ -61,18 +61,23 @@ class _AndersonColumn:
     """Anderson's update of one column from the differences of its last steps."""
 
     def __init__(self) -> None:
-        self._points: list[np.ndarray] = []
-        self._steps: list[np.ndarray] = []
+        self._point: np.ndarray | None = None
+        self._step: np.ndarray | None = None
+        self._step_change: list[np.ndarray] = []
+        self._image_change: list[np.ndarray] = []
 
     def advance(self, point: np.ndarray, step: np.ndarray) -> np.ndarray:
         """Return the next point from this one and its fixed-point step."""
-        self._points = [*self._points[-DEPTH:], point.copy()]
-        self._steps = [*self._steps[-DEPTH:], step]
-        if len(self._steps) == 1:
+        if self._point is not None:
+            change = step - self._step
+            self._step_change = [*self._step_change[1 - DEPTH :], change]
+            change = point - self._point + change
+            self._image_change = [*self._image_change[1 - DEPTH :], change]
+        self._point, self._step = point.copy(), step
+        if not self._step_change:
             return point + step
-        step_change = np.diff(self._steps, axis=0)
-        point_change = np.diff(self._points, axis=0)
+        step_change = np.array(self._step_change)
         gram = step_change @ step_change.T
         gram[np.diag_indices_from(gram)] *= 1 + 1e-12
         weights = np.linalg.lstsq(gram, step_change @ step, rcond=1e-14)[0]
-        return point + step - weights @ (point_change + step_change)
+        return point + step - weights @ np.array(self._image_change)

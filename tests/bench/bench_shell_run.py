@@ -1,0 +1,183 @@
+"""Run one task in one code and print its cost: `python bench_shell_run.py CODE TASK CASE N`.
+
+A process of its own for every row, so that memory and CPU time are this task's alone. CPU time
+counts from mesh arrays to displacements, without the interpreter's start and imports; CalculiX
+is a program, and its own CPU time is that of the child process.
+"""
+
+import json
+import resource
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).parents[2]
+sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "tests"), str(ROOT / "tests" / "verification")]
+
+from bench_shell_models import COMBINATION, peer_model  # noqa: E402
+from bench_shell_stability import TASKS, Problem  # noqa: E402
+
+from verification.folded_cases import CASES, CONCRETE  # noqa: E402
+
+SHAPES = {"ASDShellT3": "T3", "ASDShellQ4": "Q4", "S3": "T3", "S6": "T6", "S8R": "Q8"}
+
+
+def run_opensees(case, n, element, system, task):
+    """Return CPU s, wall s, dofs and the largest downward displacement."""
+    import openseespy.opensees as ops
+
+    model = peer_model(case, n, SHAPES[element])
+    forces = model.forces if task == "linear7" else (model.forces[..., :5] @ COMBINATION)[..., None]
+    began = time.process_time(), time.perf_counter()
+    ops.wipe()
+    ops.model("basic", "-ndm", 3, "-ndf", 6)
+    for tag, point in enumerate(model.nodes.tolist(), 1):
+        ops.node(tag, *point)
+    for tag in (model.supported + 1).tolist():
+        ops.fix(tag, 1, 1, 1, 0, 0, 0)
+    ops.section("ElasticMembranePlateSection", 1, CONCRETE.youngs_modulus,
+                CONCRETE.poissons_ratio, model.thickness, 0.0)  # fmt: skip
+    flags = ["-corotational"] if task == "corotational" else []
+    for tag, nodes in enumerate((model.elements + 1).tolist(), 1):
+        ops.element(element, tag, *nodes, 1, *flags)
+    ops.constraints("Plain")
+    ops.numberer("RCM" if system != "UmfPack" else "Plain")
+    ops.system(system)
+    if task == "corotational":
+        ops.test("NormDispIncr", 1e-8, 50)
+        ops.algorithm("Newton")
+    else:
+        ops.algorithm("Linear", "-factorOnce")
+    steps = 2 if task == "corotational" else 1
+    ops.integrator("LoadControl", 1.0 / steps)
+    ops.analysis("Static")
+    free = np.setdiff1d(np.arange(len(model.nodes)), model.supported)
+    value = 0.0
+    for number in range(forces.shape[2]):
+        ops.timeSeries("Linear", number + 1)
+        ops.pattern("Plain", number + 1, number + 1)
+        for tag, force in zip((free + 1).tolist(), forces[free, :, number].tolist(), strict=True):
+            ops.load(tag, *force, 0.0, 0.0, 0.0)
+        ops.setTime(0.0)
+        if ops.analyze(steps) != 0:
+            raise ArithmeticError("OpenSees did not converge")
+        moved = np.array([ops.nodeDisp(tag, 3) for tag in (free + 1).tolist()])
+        value = -moved.min() if number in (0, 2) and forces.shape[2] > 1 else value
+        value = -moved.min() if forces.shape[2] == 1 else value
+        ops.remove("loadPattern", number + 1)
+    cpu, wall = time.process_time() - began[0], time.perf_counter() - began[1]
+    return cpu, wall, 6 * len(model.nodes) - 3 * len(model.supported), float(value)
+
+
+def run_calculix(case, n, element, _system, task):
+    """Return the child's CPU s and wall s, dofs as modelled and the displacement."""
+    model = peer_model(case, n, SHAPES[element])
+    forces = model.forces if task == "linear7" else (model.forces[..., :5] @ COMBINATION)[..., None]
+    lines = ["*NODE,NSET=NALL"]
+    lines += [f"{i},{x:.15g},{y:.15g},{z:.15g}" for i, (x, y, z) in enumerate(model.nodes, 1)]
+    lines.append(f"*ELEMENT,TYPE={element},ELSET=EALL")
+    lines += [
+        ",".join(map(str, [i, *row])) for i, row in enumerate((model.elements + 1).tolist(), 1)
+    ]
+    lines.append("*NSET,NSET=HELD")
+    lines += [f"{i}," for i in (model.supported + 1).tolist()]
+    lines += [
+        "*MATERIAL,NAME=C",
+        "*ELASTIC",
+        f"{CONCRETE.youngs_modulus},{CONCRETE.poissons_ratio}",
+    ]
+    lines += ["*SHELL SECTION,ELSET=EALL,MATERIAL=C", f"{model.thickness}"]
+    lines += ["*BOUNDARY", "HELD,1,3"]
+    for number in range(forces.shape[2]):
+        lines += ["*STEP", "*STATIC", "*CLOAD,OP=NEW"]
+        lines += [
+            f"{node + 1},{axis + 1},{forces[node, axis, number]:.15g}"
+            for node, axis in zip(*np.nonzero(forces[:, :, number]), strict=True)
+        ]
+        lines += ["*NODE PRINT,NSET=NALL", "U", "*END STEP"]
+    with tempfile.TemporaryDirectory() as folder:
+        Path(folder, "job.inp").write_text("\n".join(lines) + "\n")
+        before = resource.getrusage(resource.RUSAGE_CHILDREN)
+        wall = time.perf_counter()
+        subprocess.run(["ccx", "-i", "job"], cwd=folder, check=True, stdout=subprocess.DEVNULL,
+                       timeout=900)  # fmt: skip
+        wall = time.perf_counter() - wall
+        after = resource.getrusage(resource.RUSAGE_CHILDREN)
+        table = Path(folder, "job.dat").read_text().split("displacements")[-1].splitlines()[2:]
+    moved = np.array([line.split()[1:4] for line in table if len(line.split()) == 4], float)
+    cpu = after.ru_utime + after.ru_stime - before.ru_utime - before.ru_stime
+    dofs = 6 * len(model.nodes) - 3 * len(model.supported)
+    return cpu, wall, dofs, float(-moved[:, 2].min())
+
+
+def run_foldshell(case, n, _element, solver, task):
+    """Return CPU s, wall s, dofs and the largest downward displacement."""
+    from foldshell.shell.analysis import build_model
+    from foldshell.shell.assembly import assemble_stiffness
+    from foldshell.shell.linear_solver import factorise
+    from foldshell.shell.loads import Loads, nodal_forces, surface_loads
+    from foldshell.shell.mesh_files import mesh_folded_sheet, mesh_from_arrays
+    from verification.folded_cases import load_sheet
+
+    if task in TASKS:
+        problem = Problem(case, n, solver)
+        TASKS[task](problem)
+        cpu, wall, value = min(TASKS[task](problem) for _ in range(3))
+        return cpu, wall, problem.pattern.size, value
+    factorise(*_tiny_problem(), solver)
+    arrays = mesh_folded_sheet(load_sheet(case.sheet), case.support, n)
+    mesh = mesh_from_arrays(arrays)
+    thickness = np.full(len(mesh.elements), case.thickness)
+    began = time.process_time(), time.perf_counter()
+    model = build_model(mesh, arrays["supported_nodes"], CONCRETE.poissons_ratio)
+    normal = model.operators.geometry.frame[:, 2]
+    surface = surface_loads(normal, thickness, CONCRETE.unit_weight, Loads())
+    if task == "linear7":
+        sideways = np.zeros((len(normal), 3, 2))
+        sideways[:, 0, 0] = sideways[:, 1, 1] = CONCRETE.unit_weight * thickness
+        surface = np.concatenate([surface, sideways], axis=2)
+    else:
+        surface = (surface @ COMBINATION)[..., None]
+    forces = nodal_forces(model.operators, surface)
+    values = assemble_stiffness(model.operators, model.pattern, thickness, CONCRETE.youngs_modulus)
+    moved = np.zeros_like(forces)
+    dofs = model.pattern.dofs
+    moved[dofs] = factorise(model.pattern, values, solver).solve(forces[dofs])
+    cpu, wall = time.process_time() - began[0], time.perf_counter() - began[1]
+    column = 2 if task == "linear7" else 0
+    return cpu, wall, model.pattern.size, float(-moved[2 : 3 * len(mesh.nodes) : 3, column].min())
+
+
+def _tiny_problem():
+    """Return a pattern and values that load the solver's library before the clock starts."""
+    from foldshell.shell.analysis import build_model
+    from foldshell.shell.assembly import assemble_stiffness
+    from foldshell.shell.mesh import build_mesh
+
+    points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.2]])
+    mesh = build_mesh(points, np.array([[0, 1, 2], [0, 2, 3]]), subdivisions=2)
+    model = build_model(mesh, np.arange(4), 0.2)
+    return model.pattern, assemble_stiffness(model.operators, model.pattern, np.ones(2), 1.0)
+
+
+RUNNERS = {"foldshell": run_foldshell, "opensees": run_opensees, "calculix": run_calculix}
+
+
+def main(code, element, system, task, case, n):
+    """Print one row as json."""
+    cpu, wall, dofs, value = RUNNERS[code](CASES[int(case)], int(n), element, system, task)
+    who = resource.RUSAGE_CHILDREN if code == "calculix" else resource.RUSAGE_SELF
+    print(json.dumps({
+        "task": task, "code": f"{code} {element}".strip(), "solver": system, "dofs": dofs,
+        "cpu_s": round(cpu, 4), "wall_s": round(wall, 4),
+        "rss_mb": round(resource.getrusage(who).ru_maxrss / 1024, 1), "value": value,
+        "case": str(CASES[int(case)]), "n": int(n),
+    }))  # fmt: skip
+
+
+if __name__ == "__main__":
+    main(*sys.argv[1:])
