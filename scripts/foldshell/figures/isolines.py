@@ -18,6 +18,16 @@ def panel_node_values(
     return total[number].reshape(-1, 3)
 
 
+def find_region_border(triangles: np.ndarray, inside: np.ndarray) -> np.ndarray:
+    """Return the edges (K, 2) between triangles (C, 3) that are inside a region and others (C,)."""
+    edge = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+    edges, number = np.unique(edge, axis=0, return_inverse=True)
+    number = number.reshape(-1)
+    count = np.bincount(number, minlength=len(edges))
+    within = np.bincount(number, np.repeat(inside, 3), len(edges))
+    return edges[(within > 0) & (within < count)]
+
+
 def find_isolines(corners: np.ndarray, values: np.ndarray, level: float) -> np.ndarray:
     """Return the segments (S, 2, 3) on which a linear field has a level.
 

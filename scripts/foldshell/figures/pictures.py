@@ -6,8 +6,9 @@ import numpy as np
 from PIL import Image
 
 from foldshell.figures.camera import Camera, fit_camera
-from foldshell.figures.colours import make_limit_scale, make_scale, round_step
+from foldshell.figures.colours import ABOVE, make_limit_scale, make_scale, round_step
 from foldshell.figures.drafts import (
+    DENSE,
     Draft,
     Subject,
     draft_field,
@@ -16,12 +17,16 @@ from foldshell.figures.drafts import (
 )
 from foldshell.figures.fields import choose_deflection
 from foldshell.figures.flow_pictures import draft_buckling, draft_force_lines, draft_isolines
-from foldshell.figures.layout import Key, compose, view_size
+from foldshell.figures.isolines import find_region_border
+from foldshell.figures.layout import INK, Key, compose, view_size
 from foldshell.figures.render import render_scenes
+from foldshell.figures.scene import LIFT, Lines
 
 DISPLACED_SHARE = 0.06
 """The largest displacement is drawn about this share of the span long."""
 
+LIMIT_WIDTH = 3.5
+"""Width of the line about cells above the limit, so that they show in grey too, pixels."""
 RATIO_RANGE_MIN = 0.01
 """Least range of the colours of planarity and strain, %."""
 
@@ -80,7 +85,13 @@ def draft_utilization(subject: Subject) -> Draft:
     if scale.limit is None:
         words += f" ({limit:g} is not reached)"
     above = f"to {values.max():.2f}" if values.max() > limit else "none"
-    return draft_field(subject, "Utilization", facts, words, values, scale, above)
+    width = LIMIT_WIDTH * min(1.0, DENSE / len(state.final["thickness"]))
+    border = state.cells.nodes[find_region_border(state.triangles, values > limit)]
+    return draft_field(
+        subject, "Utilization", facts, words, values, scale, above,
+        extra=(Lines(border, INK, width, 1.2 * LIFT),),
+        keys=(Key("area", f"above {limit:g}, outlined", ABOVE),) if len(border) else (),
+    )  # fmt: skip
 
 
 def draft_displacement(subject: Subject) -> Draft:

@@ -5,7 +5,7 @@ import pytest
 
 from foldshell.figures.camera import fit_camera, look_at
 from foldshell.figures.creases import cut_dashes, find_creases
-from foldshell.figures.isolines import find_isolines, panel_node_values
+from foldshell.figures.isolines import find_isolines, find_region_border, panel_node_values
 from foldshell.pattern.grid import build_grid
 from unit.figures.figure_cases import make_state
 
@@ -97,3 +97,14 @@ def test_node_values_are_area_means_within_a_panel():
     values, panel, area = np.array([1.0, 4, 100]), np.array([0, 0, 1]), np.array([2.0, 1, 5])
     nodes = panel_node_values(values, triangles, panel, area)
     assert np.allclose(nodes, [[1, 2, 2], [2, 4, 2], [100, 100, 100]])
+
+
+def test_border_of_a_region():
+    """Of four triangles about a point the first two are inside: two spokes part them from the rest.
+
+    The sheet's own border is none, nor is a region that covers everything.
+    """
+    triangles = np.array([[0, 1, 2], [0, 2, 3], [0, 3, 4], [4, 1, 0]])
+    border = find_region_border(triangles, np.array([True, True, False, False]))
+    assert border.tolist() == [[0, 1], [0, 3]]
+    assert len(find_region_border(triangles, np.ones(4, dtype=bool))) == 0
