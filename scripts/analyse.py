@@ -1,11 +1,13 @@
 """Rule analyse: second-order shell analysis of one workbook of thicknesses, and the verdict."""
 
+import sys
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from foldshell.sizing.case import make_stop_rule, open_case
 from foldshell.sizing.iteration import IterationTask
+from foldshell.sizing.progress import describe_iteration
 from foldshell.study.errors import user_errors
 from foldshell.study.files import hash_file, read_arrays, read_json, write_arrays, write_json
 from foldshell.workbook.edits import keep_edited
@@ -19,6 +21,7 @@ def main(
     json_path: str | Path,
     arrays_path: str | Path,
     *,
+    design: str,
     iteration: int,
     span_m: float,
     zigzag: int,
@@ -39,6 +42,8 @@ def main(
     report["workbook_sha256"] = hash_file(workbook_path)
     write_arrays(arrays_path, fields)
     write_json(json_path, report)
+    # One write a line, so that lines of parallel jobs do not mix.
+    sys.stderr.write(describe_iteration(design, report) + "\n")
 
 
 if "snakemake" in globals():
@@ -48,6 +53,7 @@ if "snakemake" in globals():
             snakemake.input.workbook,  # noqa: F821
             snakemake.output.json,  # noqa: F821
             snakemake.output.arrays,  # noqa: F821
+            design=snakemake.wildcards.design,  # noqa: F821
             iteration=int(snakemake.wildcards.iteration),  # noqa: F821
             previous=tuple(snakemake.input.get("previous", ())) or None,  # noqa: F821
             **snakemake.params,  # noqa: F821

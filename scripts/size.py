@@ -30,14 +30,13 @@ def main(
     settings: Mapping[str, Any],
     settings_hash: str,
 ) -> None:
-    """Write history.csv, history.xlsx, design.xlsx and copies of the last analysis.
-
-    `classes_paths` are classes.json and classes.npz. Iterations left behind the last one are
-    removed; edited workbooks among them are kept under sizing/superseded."""
+    """Write history.csv, history.xlsx, design.xlsx and copies of the last analysis, from that and
+    classes.json, classes.npz. Iterations left behind the last one are removed; edited workbooks
+    among them are kept under sizing/superseded."""
     iterations = gather_iterations(json_paths, design, settings["sizing"])
     versions = {"python": platform.python_version()} | {name: version(name) for name in PACKAGES}
-    grouped = read_json(classes_paths[0]), read_arrays(classes_paths[1])["panel_class"]
-    report = make_design_report(iterations, design, settings, settings_hash, versions, *grouped)
+    more = versions, read_json(classes_paths[0]), read_arrays(classes_paths[1])["panel_class"]
+    report = make_design_report(iterations, design, settings, settings_hash, *more)
     write_history_csv(csv_path, iterations.history)
     write_history(history_path, iterations.history, report.verdict, report.utilization_max)
     write_design(design_path, report)

@@ -33,15 +33,18 @@ def _start(folder, thickness=0.15):
 def _analyse(mesh, book, iteration=0, previous=None, **sizing):
     files = book.parent / "analysis.json", book.parent / "analysis.npz"
     analyse.main(
-        mesh, book, *files, iteration=iteration, span_m=SPAN, zigzag=ZIGZAG, strip=STRIP,
+        mesh, book, *files, design="small", iteration=iteration, span_m=SPAN, zigzag=ZIGZAG,
+        strip=STRIP,
         settings=stage("analyse", **sizing), previous=previous,
     )  # fmt: skip
     return read_json(files[0]), read_arrays(files[1])
 
 
-def test_report_keeps_the_contract(tmp_path, mesh):
+def test_report_keeps_the_contract(tmp_path, mesh, capsys):
     book = _start(tmp_path)
     report, arrays = _analyse(mesh, book)
+    line = capsys.readouterr().err
+    assert line.startswith("small iteration 00: volume") and line.count("\n") == 1
     assert set(KEYS.split()) <= set(report)
     assert report["verdict"] == "continue" and report["iteration"] == 0
     assert not report["edited"] and report["workbook_sha256"] == hash_file(book)

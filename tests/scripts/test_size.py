@@ -33,8 +33,8 @@ def loop(tmp_path_factory):
         files = here / "analysis.json", here / "analysis.npz"
         before = tuple(str(path) for path in found[-1]) if found else None
         analyse.main(
-            mesh, here / "thickness.xlsx", *files, iteration=number, span_m=SPAN, **PLACE,
-            settings=stage("analyse"), previous=before,
+            mesh, here / "thickness.xlsx", *files, design="small", iteration=number,
+            span_m=SPAN, **PLACE, settings=stage("analyse"), previous=before,
         )  # fmt: skip
         found.append(files)
         if read_json(files[0])["verdict"] != "continue":

@@ -15,6 +15,12 @@ from foldshell.workbook.panels import round_thickness
 CRITERIA = ("utilization_max", "displacement_vertical_m")
 """What a grouped design has to keep; changes of volume mean nothing to it."""
 
+ROUNDS_MAX = 6
+"""How often panels above the limit are thickened and grouped anew."""
+
+SAFETY = 1.005
+"""Factor on a raised thickness, so that rounds end."""
+
 LEFT_OUT = ("quiet_iterations", "utilization_min", "verdict", "reason", "criteria")
 
 
@@ -27,24 +33,35 @@ def analyse_classes(
 ) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
     """Return the contents of classes.json and classes.npz.
 
+    Panels that grew draw forces to them. Where that puts a panel above the limit, which the sized
+    design kept, its needed thickness is raised by its utilization and all are grouped anew.
+
     Parameters
     ----------
     span : m
     last, arrays : contents of analysis.json and analysis.npz of the last iteration
     count : classes allowed
     """
-    area = panel_area(case.model)
-    groups = group_thicknesses(arrays["thickness"], area, count)
-    thickness = round_thickness(groups.thickness)
+    area, limit = panel_area(case.model), case.rule.utilization_max
+    needed = arrays["thickness"]
     before = {"buckling_modes": arrays["buckling_modes"]} if "buckling_modes" in arrays else {}
-    task = IterationTask(last["iteration"], span, thickness, {}, before)
-    found, fields = replace(case, factor_min=None).run(task)
+    for raised in range(ROUNDS_MAX + 1):
+        groups = group_thicknesses(needed, area, count)
+        thickness = round_thickness(groups.thickness)
+        task = IterationTask(last["iteration"], span, thickness, {}, before)
+        found, fields = replace(case, factor_min=None).run(task)
+        share = fields.get(f"utilization_{case.rule.measure}", np.zeros(1)) / limit
+        if found["state"] != "ok" or share.max() <= 1 or raised == ROUNDS_MAX:
+            break
+        more = np.where(share > 1, thickness * share * SAFETY, needed)
+        needed = np.minimum(np.maximum(needed, more), case.rule.largest_thickness)
     report = {
         **_judge(found),
         "count": count,
+        "rounds": raised,
         "classes": _describe(groups, area),
         "ungrouped_volume_m3": last["volume_m3"],
-        "added_volume_relative": groups.added_volume / last["volume_m3"],
+        "added_volume_relative": found["volume_m3"] / last["volume_m3"] - 1,
         **{name: value for name, value in found.items() if name not in LEFT_OUT},
     }
     kept = {name: values for name, values in fields.items() if name.startswith("utilization_panel")}
