@@ -59,8 +59,7 @@ class Subject:
         stiffness = (self.elasticity.youngs_modulus, self.elasticity.poissons_ratio)
         coefficients, geometry = membrane_force_coefficients(state, name, *stiffness)
         field = make_force_field(state.mesh, geometry, coefficients)
-        families = [trace_force_lines(field, family, spacing, step) for family in (0, 1)]
-        return name, [*families[0], *families[1]]
+        return name, trace_force_lines(field, (0, 1), spacing, step)
 
 
 @dataclass(frozen=True)

@@ -79,7 +79,7 @@ def compose(
 def save_png(path: str | Path, picture: Image.Image) -> None:
     """Write a PNG whose bytes depend on the picture alone."""
     with atomic_path(path) as temporary:
-        picture.save(temporary, format="PNG", compress_level=6)
+        picture.save(temporary, format="PNG", compress_level=4)
 
 
 @lru_cache

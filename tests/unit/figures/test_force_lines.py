@@ -58,7 +58,7 @@ def along(direction):
 def test_uniaxial_lines_are_straight_and_parallel():
     """Uniform tension at 20 degrees: every line has that direction and ends at the border."""
     direction = np.array([np.cos(np.radians(20)), np.sin(np.radians(20)), 0])
-    lines = trace_force_lines(field_of(square_mesh(), along(direction)), 0, 0.08, 0.03)
+    lines = trace_force_lines(field_of(square_mesh(), along(direction)), (0,), 0.08, 0.03)
     assert len(lines) > 5
     for line in lines:
         chord = line.points[-1] - line.points[0]
@@ -86,7 +86,7 @@ def test_lines_of_an_opened_fold_are_straight():
     raised = field_of(mesh, lambda places: np.broadcast_to(both[1], (len(places), 3, 3)))
     upper = (mesh.facet == 1)[:, None, None]
     polynomial = np.where(upper, raised.polynomial, field.polynomial)
-    line = trace_force_lines(replace(field, polynomial=polynomial), 0, 0.15, 0.02)[0]
+    line = trace_force_lines(replace(field, polynomial=polynomial), (0,), 0.15, 0.02)[0]
     raised = line.points[:, 2] > 1e-9
     opened = line.points[:, :2].copy()
     opened[raised, 1] = line.points[raised] @ up
@@ -107,12 +107,12 @@ def test_lines_about_a_centre_are_rays_and_circles():
         return arm[:, :, None] * arm[:, None, :]
 
     field = field_of(square_mesh(), tensor)
-    for line in trace_force_lines(field, 0, 0.1, 0.02):
+    for line in trace_force_lines(field, (0,), 0.1, 0.02):
         arm = line.points[:, :2] - centre[:2]
         bearing = np.arctan2(arm[:, 1], arm[:, 0])
         assert np.ptp(bearing) < 1e-6
         assert np.allclose(line.force, (arm**2).sum(axis=1), rtol=1e-9)
-    for line in trace_force_lines(field, 1, 0.1, 0.02):
+    for line in trace_force_lines(field, (1,), 0.1, 0.02):
         radius = np.linalg.norm(line.points[:, :2] - centre[:2], axis=1)
         assert np.ptp(radius) < 1e-3 * radius.mean()
         assert np.abs(line.force).max() < 1e-9
@@ -144,7 +144,7 @@ def test_equal_forces_have_no_lines():
     field = field_of(
         square_mesh(), lambda points: np.broadcast_to(-3 * np.eye(3), (len(points), 3, 3))
     )
-    assert trace_force_lines(field, 0, 0.05, 0.02) == []
+    assert trace_force_lines(field, (0,), 0.05, 0.02) == []
 
 
 def test_a_closed_line_ends_when_it_has_come_round():
@@ -155,7 +155,7 @@ def test_a_closed_line_ends_when_it_has_come_round():
         arm = np.cross([0, 0, 1.0], points - centre)
         return arm[:, :, None] * arm[:, None, :]
 
-    lines = trace_force_lines(field_of(square_mesh(), hoop), 0, 0.05, 0.02)
+    lines = trace_force_lines(field_of(square_mesh(), hoop), (0,), 0.05, 0.02)
     assert lines
     for line in lines:
         step = np.diff(line.points[:, :2], axis=0)
