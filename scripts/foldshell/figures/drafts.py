@@ -115,6 +115,7 @@ def draft_nothing(subject: Subject, title: str, words: str) -> Draft:
     colours = np.tile(np.array(MISSING, dtype=np.uint8), (len(state.triangles), 1))
     scene = Scene(state.cells.nodes, state.triangles, colours, lines, *support_marks(subject))
     verdict = describe_verdict(state.report)
+    keys = (*keys, Key("support", "pinned edges"))
     return Draft(scene, Caption(f"{title}: {state.name}", (words, verdict), keys=keys))
 
 

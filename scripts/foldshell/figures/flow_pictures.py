@@ -64,7 +64,8 @@ def draft_force_lines(subject: Subject) -> Draft:
         words = f"no membrane forces under {name}: it carries by bending alone"
         return draft_nothing(subject, "Force lines", words)
     keys = [Key("solid", "tension", TENSION), Key("solid", "compression", COMPRESSION)]
-    facts = f"trajectories of the principal membrane forces of {name}, traced across the folds"
+    order = "" if state.report.get("state") in ("ok", None) else "first-order "
+    facts = f"trajectories of the principal {order}membrane forces of {name}, across the folds"
     bounds = ", ".join(f"{share * large:.0f}" for share, _ in WIDTHS)
     classes = f"Thin, medium, thick lines: more than {bounds} kN/m. Weaker forces are left out."
     lines = _by_force(segments, force, large)
