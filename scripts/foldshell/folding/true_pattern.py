@@ -2,11 +2,11 @@
 
 import math
 from collections.abc import Iterator
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
-from foldshell.folding.exact import Solution, solve_exactly
+from foldshell.folding.exact import ExactWeights, Solution, solve_exactly
 from foldshell.folding.intersections import find_intersections
 from foldshell.folding.quality import count_flipped, find_convex
 from foldshell.folding.settings import FoldSettings
@@ -20,6 +20,7 @@ from foldshell.pattern.unfold import find_overlap, follow_path, unfold_panels
 ACCEPTED = 1e-9  # constraint residual and closures
 OTHER_ANGLES_DEG = (70.0, 65.0, 75.0)  # starts to try when the given sector angle fails
 REFOLDED = 1e-10  # gap [m] between panels anywhere on the rigid path
+FIRM_MARGIN = 30.0  # times the weight that keeps corners convex, when nothing else helped
 PATH_PARTS = np.linspace(0.0, 1.0, 21)
 
 
@@ -45,8 +46,11 @@ def fold_rigidly(sheet: Sheet, target, settings: FoldSettings) -> Shape:
 
 def _fold_truly(sheet: Sheet, target, settings: FoldSettings, rigid: bool) -> Shape:
     attempts = []
-    for start in list_starts(sheet, target):
-        attempts.append(_attempt(start, target, settings, rigid))
+    firm = replace(settings.exact, margin=FIRM_MARGIN * settings.exact.margin)
+    tries = [(start, settings.exact) for start in list_starts(sheet, target)]
+    tries += [(start, firm) for start, _ in tries[:2]]
+    for start, weights in tries:
+        attempts.append(_attempt(start, target, settings, weights, rigid))
         if not attempts[-1].faults:
             break
     best = min(attempts, key=lambda a: (bool(a.faults), a.solution.residual))
@@ -71,7 +75,9 @@ def list_starts(sheet: Sheet, target) -> Iterator[Sheet]:
             )
 
 
-def _attempt(sheet: Sheet, target, settings: FoldSettings, rigid: bool) -> Attempt:
+def _attempt(
+    sheet: Sheet, target, settings: FoldSettings, weights: ExactWeights, rigid: bool
+) -> Attempt:
     soft = fold_softly(sheet, target, settings)
     solution = solve_exactly(sheet, target, settings.attract, soft.vertices, settings.exact, rigid)
     iterations = soft.iterations + solution.iterations
@@ -109,9 +115,13 @@ def _finish(attempt: Attempt, attempts: list[Attempt], rigid: bool) -> Shape:
     if find_overlap(unfolded.vertices, sheet.grid):
         faults.append("the unfolded pattern overlaps itself")
     if rigid:
-        _, closure = follow_path(vertices, unfolded.vertices, sheet.grid, PATH_PARTS)
+        states, closure = follow_path(vertices, unfolded.vertices, sheet.grid, PATH_PARTS)
+        cuts = sum(len(find_intersections(state, sheet.grid.facets)) for state in states[1::4])
+        residuals["path_intersections"] = cuts
         residuals["refold_closure_m"] = closure
         if not closure <= REFOLDED:
             faults.append(f"panels part by {closure:.1e} m on the folding path")
+        if cuts:
+            faults.append("the sheet cuts itself on the folding path")
     reason = "; ".join(faults) or attempt.solution.reason
     return Shape(vertices, unfolded.vertices, iterations, not faults, reason, residuals)

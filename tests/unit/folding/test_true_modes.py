@@ -33,8 +33,8 @@ def _assert_true_origami(sheet, result):
     assert not find_overlap(shape.flat, grid)
 
 
-def _assert_exact(surface, height, zigzag, strip):
-    sheet, _, result = fold_case(surface, 28, height, zigzag, strip, "exact")
+def _assert_exact(surface, zigzag, strip, span=28, height=10):
+    sheet, _, result = fold_case(surface, span, height, zigzag, strip, "exact")
     _assert_true_origami(sheet, result)
     assert result.quality.max_over_span <= 1e-12
     assert result.quality.plan_coverage >= 0.9
@@ -45,12 +45,13 @@ def _assert_rigid(surface, zigzag, strip):
     _assert_true_origami(sheet, result)
     assert np.abs(flat_foldability_residual(result.shape.vertices, sheet.grid)).max() <= 1e-9
     assert result.shape.residuals["refold_closure_m"] <= 1e-10
+    assert result.shape.residuals["path_intersections"] == 0
     assert result.quality.rms_over_span <= RIGID_RMS[surface]
 
 
 @pytest.mark.parametrize("surface", ["paraboloid", "arch"])
 def test_small_designs_are_exact(surface):
-    _assert_exact(surface, 10, 15, 16)
+    _assert_exact(surface, 15, 16)
 
 
 @pytest.mark.parametrize("surface", ["hypar", "arch_strip"])
@@ -61,9 +62,10 @@ def test_small_designs_fold_rigidly(surface):
 @pytest.mark.verification
 @pytest.mark.parametrize(("zigzag", "strip"), DENSITIES)
 @pytest.mark.parametrize("surface", SURFACES)
-@pytest.mark.parametrize("height", [10, 6])
-def test_every_design_is_exact(surface, height, zigzag, strip):
-    _assert_exact(surface, height, zigzag, strip)
+@pytest.mark.parametrize(("span", "height"), [(28, 10), (28, 6), (13, 5), (5, 2)])
+def test_every_design_is_exact(surface, span, height, zigzag, strip):
+    """All but the steepest: at 28/28 six surfaces in ten are found, which is not demanded."""
+    _assert_exact(surface, zigzag, strip, span, height)
 
 
 @pytest.mark.verification
