@@ -15,8 +15,8 @@ DEPTH = 6
 
 @dataclass(frozen=True)
 class SecondOrderResult:
-    """Displacements (free, c), iterations, the last relative change of each column (c,), and
-    whether every column met the tolerance."""
+    """Displacements (free, c), iterations, the relative change of each column (c,) that one more
+    iteration is expected to bring, and whether every column met the tolerance."""
 
     displacement: np.ndarray
     iterations: int
@@ -36,11 +36,13 @@ def solve_second_order(
     ----------
     linear : (free, c) first-order displacements
     correction : maps (u (free, k), numbers of the k columns) to -K^-1 K_g(N(u)) u, (free, k)
-    tolerance : largest change, relative to the largest displacement of the column
+    tolerance : largest expected change, relative to the largest displacement of the column: the
+        last change times the greater of the last two rates at which changes fell
     iterations_max : limit on evaluations of `correction`
     """
     current = linear.copy()
     residual = np.full(linear.shape[1], np.inf)
+    changes = np.full((3, linear.shape[1]), np.inf)
     memory = [_AndersonColumn() for _ in range(linear.shape[1])]
     iterations = 0
     while iterations < iterations_max:
@@ -52,9 +54,17 @@ def solve_second_order(
         for position, column in enumerate(active):
             step = image[:, position] - current[:, column]
             scale = np.abs(image[:, position]).max() or 1.0
-            residual[column] = np.abs(step).max() / scale
+            changes[:, column] = [*changes[1:, column], np.abs(step).max() / scale]
+            residual[column] = _expect_change(*changes[:, column])
             current[:, column] = memory[column].advance(current[:, column], step)
     return SecondOrderResult(current, iterations, residual, bool((residual <= tolerance).all()))
+
+
+def _expect_change(first: float, second: float, third: float) -> float:
+    """Return the change that follows three others; the last one while fewer are known."""
+    if not np.isfinite(first) or third == 0:
+        return third
+    return third * min(1.0, max(second / first, third / second))
 
 
 class _AndersonColumn:
