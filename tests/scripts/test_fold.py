@@ -60,7 +60,8 @@ def test_vtu_holds_the_fields(tmp_path):
     assert {"panel", "planarity", "strain"} <= set(mesh.cell_data)
     assert {"distance", "zigzag", "strip"} <= set(mesh.point_data)
     distance = mesh.point_data["distance"]
-    known = distance[np.isfinite(distance)]
+    known = distance[mesh.point_data["attracted"] == 1]
+    assert np.isfinite(distance).all() and len(known) == 32
     rms = np.sqrt(np.mean(known**2)) / 28
     assert rms == pytest.approx(quality["rms_over_span"], rel=1e-12)
     assert np.array_equal(mesh.points, data["vertices"])

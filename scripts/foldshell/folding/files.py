@@ -48,18 +48,23 @@ def write_folded(path: str | Path, sheet: Sheet, result: FoldResult) -> None:
 def write_folded_vtu(path: str | Path, sheet: Sheet, result: FoldResult) -> None:
     """Write folded.vtu: facets with panel, indices, planarity and strain; distance at vertices.
 
-    `distance` [m] is signed along the target's normal and nan where a vertex is not attracted.
+    `distance` [m] is signed along the target's normal; `attracted` is 1 where it was to be 0.
     """
     import meshio  # only here: the stages that follow read folded.npz
 
     grid, shape = sheet.grid, result.shape
     panel = np.repeat(np.arange(grid.panels), 2)
-    distance = np.full(len(shape.vertices), np.nan)
-    distance[result.attracted] = result.distances
+    attracted = np.zeros(len(shape.vertices), dtype=int)
+    attracted[result.attracted] = 1
     mesh = meshio.Mesh(
         shape.vertices,
         [("triangle", grid.facets)],
-        point_data={"distance": distance, "zigzag": grid.zigzag, "strip": grid.strip},
+        point_data={
+            "distance": result.distances,
+            "attracted": attracted,
+            "zigzag": grid.zigzag,
+            "strip": grid.strip,
+        },
         cell_data={
             "panel": [panel],
             "panel_zigzag": [grid.zigzag[grid.quads[panel, 0]]],

@@ -18,8 +18,9 @@ from foldshell.pattern.sheet import Sheet
 
 @dataclass(frozen=True)
 class FoldResult:
-    """A folded sheet: shape, signed distances (N,) [m] of `attracted` vertices, quality, state.
+    """A folded sheet: shape, signed distances (V,) [m] to the target, quality, state.
 
+    `attracted` are the rows of the vertices that were drawn to it, which the quality measures.
     `state` is ok, not_reached (target or tolerance missed) or crumpled (folds turned over, the
     sheet cuts itself, or too little of the plan is covered); `reason` says why in words.
     """
@@ -46,14 +47,13 @@ def fold_sheet(sheet: Sheet, target, mode: str, settings: FoldSettings) -> FoldR
     shape = solve(sheet, target, settings)
     attracted = attracted_vertices(sheet, settings.attract)
     if sheet.kind == "flat":  # it is not meant to reach the target
-        distances = np.zeros(len(attracted))
+        distances = np.zeros(len(shape.vertices))
     else:
-        points = shape.vertices[attracted]
-        closest, normals = target.find_closest(points)
-        distances = np.einsum("ij,ij->i", normals, points - closest)
+        closest, normals = target.find_closest(shape.vertices)
+        distances = np.einsum("ij,ij->i", normals, shape.vertices - closest)
     folded = sheet.kind not in LAYOUTS
     quality = measure_quality(
-        shape.vertices, sheet.grid, shape.flat, distances, target.span, folded
+        shape.vertices, sheet.grid, shape.flat, distances[attracted], target.span, folded
     )
     least = settings.limits.plan_coverage * measure_start_coverage(sheet, target, settings)
     state, reason = judge_shape(shape, quality, settings.limits.rms_over_span, least, mode)
