@@ -11,6 +11,22 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+PAIRS = 2
+"""Modes that are followed for each combination. The second one is only found roughly, which is
+what keeps the first from settling on a mode that is not the lowest."""
+
+NEIGHBOUR_TOLERANCE = 0.2
+"""Change at which the second mode is known well enough."""
+
+LARGEST_FACTOR = 1e8
+"""A larger factor is taken for none at all."""
+
+SEARCH_ITERATIONS = 12
+"""Iterations after which a structure without a positive factor counts as free of compression."""
+
+START_VECTORS = 8
+"""Random vectors to begin with."""
+
 START_SEED = 2018
 """Seed of the start vectors, fixed so that reruns agree to the last bit."""
 
@@ -66,26 +82,29 @@ def find_buckling_factors(
             found, factors=values, modes=found.modes[:, which], change=found.change[which]
         )
     space = _Subspace(solve, apply_cases, len(factors), size)
-    begin = np.random.default_rng(START_SEED).standard_normal((size, 4))
+    begin = np.random.default_rng(START_SEED).standard_normal((size, START_VECTORS))
     if start is not None:
         begin = np.hstack([begin, _own_images(apply_cases, start, factors)])
     space.extend(begin)
-    change = np.full(factors.shape[1], np.inf)
-    for _ in range(iterations_max):
-        values, vectors = space.largest(factors)
-        active = np.flatnonzero((change > tolerance) & (values > 0))
-        if not len(active):
+    change = np.full((PAIRS, factors.shape[1]), np.inf)
+    limit = np.array([tolerance, *[NEIGHBOUR_TOLERANCE] * (PAIRS - 1)])[:, None]
+    for number in range(iterations_max):
+        values, vectors = space.largest(factors, PAIRS)
+        searching = (values * LARGEST_FACTOR > 1) | (number < SEARCH_ITERATIONS)
+        pair, column = np.nonzero((change > limit) & searching)
+        if not len(pair):
             break
-        modes = space.basis @ vectors[:, active]
-        images = _own_images(apply_cases, modes, factors[:, active])
+        modes = space.basis @ vectors[pair, :, column].T
+        images = _own_images(apply_cases, modes, factors[:, column])
         better = space.extend(images)
-        energy = (better * images).sum(axis=0) / values[active] ** 2
-        change[active] = np.sqrt(np.maximum(energy - 1, 0))
-    values, vectors = space.largest(factors)
-    with np.errstate(divide="ignore"):
-        result = np.where(values > 0, 1 / values, np.inf)
-    done = bool(((change <= tolerance) | (values <= 0)).all())
-    return BucklingResult(result, space.basis @ vectors, change, space.solves, done)
+        energy = (better * images).sum(axis=0) / values[pair, column] ** 2
+        change[pair, column] = np.sqrt(np.maximum(energy - 1, 0))
+    values, vectors = space.largest(factors, 1)
+    compressed = values[0] * LARGEST_FACTOR > 1
+    result = np.where(compressed, 1 / np.where(compressed, values[0], 1.0), np.inf)
+    done = bool(((change[0] <= tolerance) | ~compressed).all())
+    modes = space.basis @ vectors[0]
+    return BucklingResult(result, modes, change[0], space.solves, done)
 
 
 def _proportional_columns(factors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
@@ -144,11 +163,12 @@ class _Subspace:
         self._projected = grown
         return solved
 
-    def largest(self, factors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Return the largest mu = 1 / lambda of each combination and its coefficients."""
+    def largest(self, factors: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
+        """Return the largest mu = 1 / lambda (count, c) and their coefficients (count, k, c)."""
         matrices = -np.einsum("akn,ac->ckn", self._projected, factors)
         values, vectors = np.linalg.eigh((matrices + matrices.transpose(0, 2, 1)) / 2)
-        return values[:, -1], vectors[:, :, -1].T
+        count = min(count, values.shape[1])
+        return values[:, : -count - 1 : -1].T, vectors[:, :, : -count - 1 : -1].transpose(2, 1, 0)
 
 
 def _orthonormalise(vectors: np.ndarray, forces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

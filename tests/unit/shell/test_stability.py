@@ -125,6 +125,23 @@ def test_warm_start_gives_the_same_factors_with_fewer_solves():
     assert warm.buckling.solves < cold.buckling.solves
 
 
+@pytest.mark.parametrize("seed", range(6))
+def test_the_least_factor_is_found_among_many_local_modes(seed):
+    """A diagonal problem of 400 modes, most of them in tension, the two lowest close together.
+
+    With K = 1 and K_g = diag(-mu) the factor is 1 / max(mu). Such spectra come from local modes of
+    single panels; a search from few vectors can settle on a mode that is not the lowest.
+    """
+    rng = np.random.default_rng(seed)
+    mu = np.concatenate([-rng.uniform(0, 3, 300), rng.uniform(0, 0.1, 98), [0.2, 0.19]])
+    rng.shuffle(mu)
+    result = find_buckling_factors(
+        lambda b: b, lambda v: -(mu[:, None] * v)[None], np.array([[1.0, 0.5]]), 400
+    )
+    assert result.converged
+    assert result.factors == pytest.approx([5.0, 10.0], rel=1e-4)
+
+
 def test_pure_tension_has_no_buckling_factor():
     size = 5
     result = find_buckling_factors(
