@@ -123,7 +123,9 @@ def find_chains(grid: Grid) -> np.ndarray:
     return np.vstack(parts) if parts else np.empty((0, 4), dtype=int)
 
 
-def require_planar(grid: Grid, vertices: np.ndarray, reference: float, weight: float):
+def require_planar(
+    grid: Grid, vertices: np.ndarray, reference: float, weight: float
+) -> PlanarPanels:
     """Planar panels, scaled by the panels' size in `vertices`."""
     a, b, c, d = (vertices[grid.quads[:, k]] for k in range(4))
     areas = np.linalg.norm(np.cross(c - a, d - b), axis=1)

@@ -28,7 +28,7 @@ from foldshell.folding.problem import (
     build_terms,
     reference_length,
 )
-from foldshell.folding.terms import Attraction, Term
+from foldshell.folding.terms import Attraction, Target, Term
 from foldshell.pattern.sheet import Sheet
 
 TOLERANCE = 1e-12  # of the constraints, non-dimensional
@@ -64,7 +64,7 @@ class Solution:
 
 def solve_exactly(
     sheet: Sheet,
-    target,
+    target: Target,
     attract: str,
     start: np.ndarray,
     weights: ExactWeights,
@@ -123,7 +123,9 @@ def project_vertices(
     return Solution(start, least, iteration, f"constraints left at {least:.1e}")
 
 
-def _constraints(sheet: Sheet, target, attract: str, weight: float, rigid: bool) -> list[Term]:
+def _constraints(
+    sheet: Sheet, target: Target, attract: str, weight: float, rigid: bool
+) -> list[Term]:
     ell = reference_length(sheet)
     if rigid:
         last: Term = require_flat_foldable(sheet.grid, weight)
@@ -137,7 +139,7 @@ def _constraints(sheet: Sheet, target, attract: str, weight: float, rigid: bool)
 
 
 def _soft_terms(
-    sheet: Sheet, target, attract: str, weights: ExactWeights, rigid: bool
+    sheet: Sheet, target: Target, attract: str, weights: ExactWeights, rigid: bool
 ) -> list[Term]:
     paper = Weights(
         stretch=weights.stretch,

@@ -12,6 +12,7 @@ from foldshell.folding.quality import Quality, measure_coverage, measure_quality
 from foldshell.folding.settings import MODES, FoldSettings
 from foldshell.folding.shape import Shape
 from foldshell.folding.soft import fold_softly
+from foldshell.folding.terms import Target
 from foldshell.folding.true_pattern import fold_exactly, fold_rigidly
 from foldshell.pattern.sheet import Sheet
 
@@ -34,7 +35,7 @@ class FoldResult:
     seconds: float
 
 
-def fold_sheet(sheet: Sheet, target, mode: str, settings: FoldSettings) -> FoldResult:
+def fold_sheet(sheet: Sheet, target: Target, mode: str, settings: FoldSettings) -> FoldResult:
     """Fold `sheet` so that its lowest or highest vertices lie on `target`.
 
     mode: paper (soft springs), isometric (hard lengths), exact (true crease pattern), rigid
@@ -61,7 +62,7 @@ def fold_sheet(sheet: Sheet, target, mode: str, settings: FoldSettings) -> FoldR
     return FoldResult(shape, attracted, distances, quality, state, reason, seconds)
 
 
-def measure_start_coverage(sheet: Sheet, target, settings: FoldSettings) -> float:
+def measure_start_coverage(sheet: Sheet, target: Target, settings: FoldSettings) -> float:
     """Share of the plan under the sheet as it is laid on the target: what it could cover.
 
     A coarse zig-zag border leaves much of the plan free without anything being wrong.
@@ -96,7 +97,7 @@ def judge_shape(
     return ("ok" if shape.converged else "not_reached"), shape.reason
 
 
-def lay_smooth(sheet: Sheet, target, settings: FoldSettings) -> Shape:
+def lay_smooth(sheet: Sheet, target: Target, settings: FoldSettings) -> Shape:
     """Lay the panel grid on the target itself by arc length of its central sections."""
     del settings
     centred = sheet.flat - sheet.flat.mean(axis=0)
@@ -107,14 +108,14 @@ def lay_smooth(sheet: Sheet, target, settings: FoldSettings) -> Shape:
     return Shape(vertices, vertices, 0, True, "laid on the target surface")
 
 
-def lay_flat(sheet: Sheet, target, settings: FoldSettings) -> Shape:
+def lay_flat(sheet: Sheet, target: Target, settings: FoldSettings) -> Shape:
     """Centre the unfolded sheet on the plan, at height 0."""
     del target, settings
     middle = 0.5 * (sheet.flat.min(axis=0) + sheet.flat.max(axis=0))
     return Shape(sheet.flat - middle, sheet.flat, 0, True, "left unfolded")
 
 
-Solver = Callable[[Sheet, object, FoldSettings], Shape]
+Solver = Callable[[Sheet, Target, FoldSettings], Shape]
 LAYOUTS: dict[str, Solver] = {"smooth": lay_smooth, "flat": lay_flat}
 SOLVERS: dict[str, Solver] = {
     "paper": fold_softly,

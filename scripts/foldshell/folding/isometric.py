@@ -13,7 +13,7 @@ from foldshell.folding.normal_equations import NormalEquations
 from foldshell.folding.problem import Weights, build_terms, edge_lengths
 from foldshell.folding.settings import FoldSettings
 from foldshell.folding.shape import Shape
-from foldshell.folding.terms import Stretch, Term
+from foldshell.folding.terms import Stretch, Target, Term
 from foldshell.pattern.sheet import Sheet
 
 STRAIN = 1e-12
@@ -21,7 +21,7 @@ STRAIN = 1e-12
 STAGES = ((1e2, 0.01), (1e2, 0.1), (1e3, 1.0), (1e4, 10.0), (1e5, 10.0), (1e6, 10.0), (1e8, 10.0))
 
 
-def fold_isometrically(sheet: Sheet, target, settings: FoldSettings) -> Shape:
+def fold_isometrically(sheet: Sheet, target: Target, settings: FoldSettings) -> Shape:
     """Bend the planar rest state towards the target, harden the lengths, project onto r = 0.
 
     Folds are held on their own side with the weight of the lengths, so that a target that
@@ -46,7 +46,7 @@ def fold_isometrically(sheet: Sheet, target, settings: FoldSettings) -> Shape:
     )  # fmt: skip
 
 
-def _lay_planar(sheet: Sheet, target) -> np.ndarray:
+def _lay_planar(sheet: Sheet, target: Target) -> np.ndarray:
     """Rest state, centred on the plan at the mean height of the target."""
     centred = sheet.placement - 0.5 * (sheet.placement.min(axis=0) + sheet.placement.max(axis=0))
     inside = np.clip(centred[:, :2], -target.span / 2, target.span / 2)
@@ -55,7 +55,7 @@ def _lay_planar(sheet: Sheet, target) -> np.ndarray:
 
 
 def _stage_terms(
-    sheet: Sheet, target, settings: FoldSettings, stretch: float, attraction: float
+    sheet: Sheet, target: Target, settings: FoldSettings, stretch: float, attraction: float
 ) -> list[Term]:
     given = settings.weights
     weights = Weights(

@@ -152,7 +152,9 @@ def find_soft_modes(
     return modes
 
 
-def _name_shapes(pattern: Miura, fold_angle: float, vertices: np.ndarray, grid: Grid):
+def _name_shapes(
+    pattern: Miura, fold_angle: float, vertices: np.ndarray, grid: Grid
+) -> dict[str, np.ndarray]:
     shapes = sample_shapes(vertices, grid)
     ratio = -poissons_ratio(pattern.sector_angle, fold_angle)
     saddle = shapes["arch"] - ratio * shapes["arch_strip"]

@@ -56,13 +56,13 @@ class MeshTarget:
         cells, weights = self._locator.find_closest(points)
         return self._interpolate(cells, weights)
 
-    def _interpolate(self, cells: np.ndarray, weights: np.ndarray):
+    def _interpolate(self, cells: np.ndarray, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         corners = self.triangles[cells]
         closest = np.einsum("nk,nkc->nc", weights, self.vertices[corners])
         normals = np.einsum("nk,nkc->nc", weights, self.normals[corners])
         return closest, normals / np.linalg.norm(normals, axis=1)[:, None]
 
-    def _look_down(self, x: np.ndarray, y: np.ndarray):
+    def _look_down(self, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         points = np.column_stack([x, y, np.full(len(x), FLATTEN * self.vertices[:, 2].mean())])
         return self._interpolate(*self._plan_locator.find_closest(points))
 

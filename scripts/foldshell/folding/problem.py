@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foldshell.folding.terms import Attraction, Hinge, PlanEdge, Stretch, Term
+from foldshell.folding.terms import Attraction, Hinge, PlanEdge, Stretch, Target, Term
 from foldshell.pattern.angles import measure_hinges
 from foldshell.pattern.grid import find_hinges
 from foldshell.pattern.sheet import Sheet
@@ -48,7 +48,7 @@ def edge_lengths(vertices: np.ndarray, edges: np.ndarray) -> np.ndarray:
     return np.linalg.norm(vertices[edges[:, 1]] - vertices[edges[:, 0]], axis=1)
 
 
-def place_sheet(sheet: Sheet, target, attract: str) -> np.ndarray:
+def place_sheet(sheet: Sheet, target: Target, attract: str) -> np.ndarray:
     """Lay the rest state on the target: vertices (V, 3) [m].
 
     Plan coordinates become arc lengths of the target's two central sections; heights above
@@ -63,7 +63,7 @@ def place_sheet(sheet: Sheet, target, attract: str) -> np.ndarray:
     return base + height[:, None] * target.find_normals(x, y)
 
 
-def build_terms(sheet: Sheet, target, attract: str, weights: Weights) -> list[Term]:
+def build_terms(sheet: Sheet, target: Target, attract: str, weights: Weights) -> list[Term]:
     """Stretch, crease hinges, neutral folds, attraction, plan edges; in that order."""
     grid = sheet.grid
     hinges = find_hinges(grid.facets, grid.edges)

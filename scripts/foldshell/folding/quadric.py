@@ -1,8 +1,11 @@
 """Target surfaces z = c + p x2 + q y2 + r x y: closest points, sections, arc lengths."""
 
 from dataclasses import dataclass
+from typing import TypeVar
 
 import numpy as np
+
+Length = TypeVar("Length", float, np.ndarray)
 
 
 @dataclass(frozen=True)
@@ -103,7 +106,7 @@ class Quadric:
         return coordinate
 
 
-def _arc_length(x, bend: float):
+def _arc_length(x: Length, bend: float) -> Length:
     """Length of z = bend x2 from 0 to x: (x sqrt(1 + k2 x2) + asinh(k x) / k) / 2, k = 2 bend."""
     slope = 2 * bend * x
     if bend == 0:

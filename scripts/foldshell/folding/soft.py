@@ -5,13 +5,14 @@ from foldshell.folding.problem import build_terms, place_sheet
 from foldshell.folding.projections import average_projections
 from foldshell.folding.settings import FoldSettings
 from foldshell.folding.shape import Shape
+from foldshell.folding.terms import Target
 from foldshell.pattern.sheet import Sheet
 
 # Averaged projections creep: many more iterations, judged over a window of them.
 EXPLICIT_ITERATIONS, EXPLICIT_TOLERANCE = 50, 10.0
 
 
-def fold_softly(sheet: Sheet, target, settings: FoldSettings) -> Shape:
+def fold_softly(sheet: Sheet, target: Target, settings: FoldSettings) -> Shape:
     """Paper mode: minimise the weighted squares of stretch, hinges, attraction, plan edge."""
     terms = build_terms(sheet, target, settings.attract, settings.weights)
     explicit = settings.engine == "averaged_projections"

@@ -21,7 +21,7 @@ from foldshell.folding.problem import (
 )
 from foldshell.folding.quality import count_flipped, measure_planarity, root_mean_square
 from foldshell.folding.settings import FoldSettings
-from foldshell.folding.terms import Stretch, Term
+from foldshell.folding.terms import Stretch, Target, Term
 from foldshell.pattern.angles import measure_folds
 from foldshell.pattern.sheet import Sheet
 
@@ -54,7 +54,7 @@ class Trial:
 
 def sweep_strengths(
     sheet: Sheet,
-    target,
+    target: Target,
     settings: FoldSettings,
     attractions: Sequence[float],
     panels: Sequence[float],
@@ -68,7 +68,7 @@ def sweep_strengths(
 
 def try_strengths(
     sheet: Sheet,
-    target,
+    target: Target,
     settings: FoldSettings,
     panels: str,
     attraction: float,
@@ -100,7 +100,12 @@ def try_strengths(
 
 
 def _build_terms(
-    sheet: Sheet, target, settings: FoldSettings, panels: str, attraction: float, panel: float
+    sheet: Sheet,
+    target: Target,
+    settings: FoldSettings,
+    panels: str,
+    attraction: float,
+    panel: float,
 ) -> list[Term]:
     given = settings.weights
     weights = Weights(

@@ -24,12 +24,36 @@ class Term(Protocol):
 
 
 class Target(Protocol):
-    """A surface that vertices are drawn to."""
+    """A surface that vertices are drawn to, over a square plan about the origin."""
 
-    span: float
+    @property
+    def span(self) -> float:
+        """Side of the plan [m]."""
+        ...
+
+    @property
+    def height(self) -> float:
+        """Range of heights [m]."""
+        ...
 
     def find_closest(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         """Closest points (N, 3) [m] and upward unit normals (N, 3)."""
+        ...
+
+    def evaluate_height(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """z(x, y) [m]."""
+        ...
+
+    def find_normals(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
+        """Upward unit normals (N, 3) above plan positions."""
+        ...
+
+    def section_lengths(self) -> tuple[float, float]:
+        """Arc lengths [m] of the central sections y = 0 and x = 0."""
+        ...
+
+    def walk_section(self, axis: int, arc: np.ndarray) -> np.ndarray:
+        """Coordinate at arc length from the middle of a central section [m]."""
         ...
 
 

@@ -12,6 +12,7 @@ from foldshell.folding.quality import count_flipped, find_convex
 from foldshell.folding.settings import FoldSettings
 from foldshell.folding.shape import Shape
 from foldshell.folding.soft import fold_softly
+from foldshell.folding.terms import Target
 from foldshell.pattern.angles import measure_folds
 from foldshell.pattern.miura import size_miura
 from foldshell.pattern.sheet import Sheet, make_miura_sheet
@@ -34,17 +35,17 @@ class Attempt:
     faults: tuple[str, ...]
 
 
-def fold_exactly(sheet: Sheet, target, settings: FoldSettings) -> Shape:
+def fold_exactly(sheet: Sheet, target: Target, settings: FoldSettings) -> Shape:
     """Exact mode: attracted vertices on the target, planar panels, developable."""
     return _fold_truly(sheet, target, settings, rigid=False)
 
 
-def fold_rigidly(sheet: Sheet, target, settings: FoldSettings) -> Shape:
+def fold_rigidly(sheet: Sheet, target: Target, settings: FoldSettings) -> Shape:
     """Rigid mode: planar, developable and flat-foldable; as near the target as that allows."""
     return _fold_truly(sheet, target, settings, rigid=True)
 
 
-def _fold_truly(sheet: Sheet, target, settings: FoldSettings, rigid: bool) -> Shape:
+def _fold_truly(sheet: Sheet, target: Target, settings: FoldSettings, rigid: bool) -> Shape:
     attempts = []
     firm = replace(settings.exact, margin=FIRM_MARGIN * settings.exact.margin)
     tries = [(start, settings.exact) for start in list_starts(sheet, target)]
@@ -57,7 +58,7 @@ def _fold_truly(sheet: Sheet, target, settings: FoldSettings, rigid: bool) -> Sh
     return _finish(best, attempts, rigid)
 
 
-def list_starts(sheet: Sheet, target) -> Iterator[Sheet]:
+def list_starts(sheet: Sheet, target: Target) -> Iterator[Sheet]:
     """Yield the sheet itself, then Miura sheets of the same counts with other sector angles.
 
     The pattern is unknown in these modes, so the sheet is only where the search begins.
@@ -76,7 +77,7 @@ def list_starts(sheet: Sheet, target) -> Iterator[Sheet]:
 
 
 def _attempt(
-    sheet: Sheet, target, settings: FoldSettings, weights: ExactWeights, rigid: bool
+    sheet: Sheet, target: Target, settings: FoldSettings, weights: ExactWeights, rigid: bool
 ) -> Attempt:
     soft = fold_softly(sheet, target, settings)
     solution = solve_exactly(sheet, target, settings.attract, soft.vertices, settings.exact, rigid)

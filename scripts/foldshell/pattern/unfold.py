@@ -120,7 +120,9 @@ def fold_panels(flat: np.ndarray, grid: Grid, folds: np.ndarray) -> Assembly:
     return _gather(moved.reshape(-1, 4, 3), grid)
 
 
-def _hinge(turn, shift, point, axis, angle):
+def _hinge(
+    turn: np.ndarray, shift: np.ndarray, point: np.ndarray, axis: np.ndarray, angle: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
     """Motion of the panel beyond an edge: the known motion after a turn about the flat edge."""
     unit = axis / np.linalg.norm(axis, axis=-1, keepdims=True)
     local = _rotation(unit, np.asarray(angle))
@@ -179,7 +181,7 @@ def find_overlap(flat: np.ndarray, grid: Grid) -> bool:
     ring = find_outline(grid)
     start, end = flat[ring, :2], flat[np.roll(ring, -1), :2]
 
-    def side(p, q, r):
+    def side(p: np.ndarray, q: np.ndarray, r: np.ndarray) -> np.ndarray:
         return (q[..., 0] - p[..., 0]) * (r[..., 1] - p[..., 1]) - (q[..., 1] - p[..., 1]) * (
             r[..., 0] - p[..., 0]
         )
