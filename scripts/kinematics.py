@@ -3,6 +3,7 @@
 import math
 from pathlib import Path
 
+from foldshell.folding.kinematics_figure import draw_kinematics
 from foldshell.folding.kinematics_study import study_sheet, study_strengths, tabulate_ratios
 from foldshell.study.errors import user_errors
 from foldshell.study.files import write_json
@@ -17,8 +18,9 @@ def main(
     height_m: float = 10.0,
     attractions: tuple[float, ...] = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0),
     panel_strengths: tuple[float, ...] = (1e-4, 1e-2, 1.0, 100.0),
+    figure_path: str | Path | None = None,
 ) -> None:
-    """Write kinematics.json.
+    """Write kinematics.json and, with `figure_path`, a picture of it.
 
     `ratios`: Poisson's ratios; `sheets`: mechanisms, isometry residuals and soft modes by
     density; `strengths`: the sweep of force strengths of claim C3.
@@ -30,9 +32,15 @@ def main(
         "sheets": [study_sheet(gamma, *density) for density in densities],
         "strengths": study_strengths(span_m, height_m, gamma, attractions, panel_strengths),
     }
+    if figure_path:
+        draw_kinematics(figure_path, table)
     write_json(table_path, table)
 
 
 if "snakemake" in globals():
     with user_errors():
-        main(snakemake.output.table, **snakemake.params)  # noqa: F821
+        main(
+            snakemake.output.table,  # noqa: F821
+            figure_path=snakemake.output.get("figure"),  # noqa: F821
+            **snakemake.params,  # noqa: F821
+        )

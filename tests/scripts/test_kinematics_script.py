@@ -7,7 +7,11 @@ import kinematics
 
 def test_tables_are_written(tmp_path):
     path = tmp_path / "kinematics.json"
-    kinematics.main(path, densities=((5, 6),), attractions=(100.0,), panel_strengths=(0.01,))
+    kinematics.main(
+        path, densities=((5, 6),), attractions=(100.0,), panel_strengths=(0.01,),
+        figure_path=tmp_path / "k.png",
+    )  # fmt: skip
+    assert (tmp_path / "k.png").read_bytes()[:4] == b"\x89PNG"
     data = json.loads(path.read_text())
     assert [row["in_plane"] < 0 for row in data["ratios"]] == [True] * 4
     assert data["sheets"][0]["rigid_panels"]["freedoms"] == 1
