@@ -17,6 +17,7 @@ from foldshell.shell.linear_solver import Factor, NotPositiveDefiniteError, fact
 from foldshell.shell.loads import Loads, combination_matrix, nodal_forces, surface_loads
 from foldshell.shell.material import Material
 from foldshell.shell.mesh import ShellMesh
+from foldshell.shell.near_null import find_near_null_vector
 from foldshell.shell.second_order import SecondOrderResult, solve_second_order
 from foldshell.shell.stiffness import ShellOperators, build_operators
 from foldshell.shell.stress import membrane_forces
@@ -24,12 +25,17 @@ from foldshell.shell.stress import membrane_forces
 
 @dataclass(frozen=True)
 class AnalysisOptions:
-    """How to analyse; see `solve_second_order` for the tolerance and the limit."""
+    """How to analyse; see `solve_second_order` for the tolerance and the limit.
+
+    `imperfection` (m) is the largest displacement of the stress-free initial shape of second
+    order: the mode of the least buckling factor, turned to the side to which its loads push it.
+    """
 
     second_order: bool = True
     second_order_tolerance: float = 1e-8
     second_order_iterations_max: int = 60
     solver: str = "cholmod"
+    imperfection: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -56,7 +62,8 @@ class AnalysisResult:
     loads : (dofs, c) kN
     buckling : factors and modes (free, c), or None
     second_order : iterations and residual, or None
-    place : node near which a mechanism shows, else None
+    place : node that moves most in a mechanism, else None
+    initial : (dofs,) initial shape in m and rad, or None
     """
 
     state: str
@@ -68,6 +75,7 @@ class AnalysisResult:
     buckling: BucklingResult | None = None
     second_order: SecondOrderResult | None = None
     place: int | None = None
+    initial: np.ndarray | None = None
 
 
 def build_model(
@@ -126,10 +134,11 @@ def analyse_shell(
     )
     cases = nodal_forces(model.operators, surface)
     factors = combination_matrix(combinations)
+    values = assemble_stiffness(model.operators, model.pattern, thickness, material.youngs_modulus)
     try:
-        solution = _Solution(model, thickness, material, options.solver)
-    except NotPositiveDefiniteError as error:
-        return _mechanism(model, names, cases @ factors, error)
+        solution = _Solution(model, thickness, material, values, options.solver)
+    except NotPositiveDefiniteError:
+        return _mechanism(model, names, cases @ factors, values, options.solver)
     linear_cases = solution.solve(cases)
     linear = linear_cases @ factors
     total = cases @ factors
@@ -140,7 +149,8 @@ def analyse_shell(
     if buckling.factors[lowest] <= 1:
         reason = f"buckling factor {buckling.factors[lowest]:.4g} of {names[lowest]} is below 1"
         return AnalysisResult("unstable", reason, names, linear, linear, total, buckling)
-    second = solution.second_order(linear, options)
+    initial = _initial_shape(model, buckling, lowest, total, options.imperfection)
+    second = solution.second_order(linear, options, initial)
     displacement = np.zeros_like(linear)
     displacement[model.pattern.dofs] = second.displacement
     worst = int(np.argmax(second.residual))
@@ -151,16 +161,28 @@ def analyse_shell(
     state = "ok" if second.converged and buckling.converged else "not_converged"
     if second.converged and not buckling.converged:
         reason = f"buckling factors still change by {buckling.change.max():.1e}"
-    return AnalysisResult(state, reason, names, displacement, linear, total, buckling, second)
+    return AnalysisResult(
+        state, reason, names, displacement, linear, total, buckling, second, initial=initial
+    )
+
+
+def _initial_shape(model, buckling, column: int, loads, size: float) -> np.ndarray | None:
+    """Return the scaled mode of one combination (dofs,), or None for none."""
+    if size == 0 or not np.isfinite(buckling.factors[column]):
+        return None
+    shape = np.zeros(model.mesh.dof_count)
+    shape[model.pattern.free] = buckling.modes[:, column]
+    moved = shape[: 3 * len(model.mesh.nodes)].reshape(-1, 3)
+    sign = -1.0 if shape @ loads[:, column] < 0 else 1.0
+    return shape * (sign * size / np.linalg.norm(moved, axis=1).max())
 
 
 class _Solution:
     """K factorised for one thickness vector, and the three ways in which it is used."""
 
-    def __init__(self, model, thickness, material, solver) -> None:
+    def __init__(self, model, thickness, material, values, solver) -> None:
         self._model, self._thickness = model, thickness
         self._modulus = material.youngs_modulus
-        values = assemble_stiffness(model.operators, model.pattern, thickness, self._modulus)
         self._factor: Factor = factorise(model.pattern, values, solver)
         self._dofs = model.pattern.dofs
 
@@ -202,13 +224,16 @@ class _Solution:
         found = find_buckling_factors(self._factor.solve, apply_cases, factors, len(dofs), start)
         return replace(found, modes=found.modes[place])
 
-    def second_order(self, linear: np.ndarray, options: AnalysisOptions) -> SecondOrderResult:
+    def second_order(
+        self, linear: np.ndarray, options: AnalysisOptions, initial: np.ndarray | None
+    ) -> SecondOrderResult:
         dofs, operators = self._dofs, self._model.operators
 
         def correction(displacement: np.ndarray, _columns: np.ndarray) -> np.ndarray:
             full = np.zeros((len(linear), displacement.shape[1]))
             full[dofs] = displacement
-            force = apply_geometric(operators, self.forces(full), full)
+            shape = full if initial is None else full + initial[:, None]
+            force = apply_geometric(operators, self.forces(full), shape)
             return -self._factor.solve(force[dofs])
 
         return solve_second_order(
@@ -219,9 +244,16 @@ class _Solution:
         )
 
 
-def _mechanism(model, names, loads, error: NotPositiveDefiniteError) -> AnalysisResult:
-    dof = int(model.pattern.dofs[error.dof])
-    nodes = len(model.mesh.nodes)
-    node = dof // 3 if dof < 3 * nodes else None
+def _mechanism(model, names, loads, values, solver) -> AnalysisResult:
+    """Report where the stiffness gives way, and no numbers."""
     nothing = np.full(loads.shape, np.nan)
-    return AnalysisResult("mechanism", str(error), names, nothing, nothing, loads, place=node)
+    reason, node = "the stiffness matrix is not positive definite", None
+    vector = find_near_null_vector(model.pattern, values, solver)
+    if vector is not None:
+        full = np.zeros(model.mesh.dof_count)
+        full[model.pattern.dofs] = vector
+        moved = np.linalg.norm(full[: 3 * len(model.mesh.nodes)].reshape(-1, 3), axis=1)
+        node = int(moved.argmax())
+        x, y, z = model.mesh.nodes[node]
+        reason += f": a mechanism moves most at node {node}, ({x:.3f}, {y:.3f}, {z:.3f}) m"
+    return AnalysisResult("mechanism", reason, names, nothing, nothing, loads, place=node)

@@ -1,7 +1,7 @@
 """Material values and strength criteria; stresses in kPa, tension positive."""
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -17,6 +17,11 @@ class Material:
     strength: float
     strength_tension: float
     criterion: str = "von_mises"
+
+
+def age_material(material: Material, creep_coefficient: float) -> Material:
+    """Return the material under sustained load: E / (1 + phi), the effective modulus of creep."""
+    return replace(material, youngs_modulus=material.youngs_modulus / (1 + creep_coefficient))
 
 
 def principal_stresses(stress: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -118,7 +118,10 @@ def support_reactions(
     )
     internal = internal_forces(model.operators, resultants)
     if result.second_order is not None:
-        push = apply_geometric(model.operators, resultants.force, result.displacement)
+        shape = result.displacement
+        if result.initial is not None:
+            shape = shape + result.initial[:, None]
+        push = apply_geometric(model.operators, resultants.force, shape)
         internal = internal + push
     reaction = translations(model, internal - result.loads)
     return reaction[model.supported_nodes]

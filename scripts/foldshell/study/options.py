@@ -94,6 +94,8 @@ class Analysis:
     second_order_tolerance: float
     second_order_iterations_max: int
     solver: str
+    imperfection: float
+    creep_coefficient: float
 
 
 @dataclass(frozen=True)

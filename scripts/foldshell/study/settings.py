@@ -9,6 +9,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from foldshell.shell.material import age_material
 from foldshell.study.checks import check_crosscheck, check_sizing
 from foldshell.study.config_file import read_config
 from foldshell.study.errors import InputError
@@ -103,6 +104,7 @@ def _type_settings(filled: Mapping[str, Any], source: str) -> Settings:
             if group == name:
                 fields[key] = nested(**convert_units(fields[key]))
         groups[name] = kind(**fields)
+    groups["material"] = age_material(groups["material"], groups["analysis"].creep_coefficient)
     return Settings(designs=filled["designs"], study=filled["study"], **groups)
 
 

@@ -27,6 +27,7 @@ _ANALYSIS = [
     "analysis.second_order_tolerance",
     "analysis.second_order_iterations_max",
     "analysis.solver",
+    "analysis.imperfection",
 ]
 _STRENGTH = [
     "material",

@@ -157,5 +157,5 @@ def test_thickness_scales_membrane_and_bending_apart():
 
 def test_a_facet_without_area_is_refused():
     points = np.array([[0, 0, 0], [1, 0, 0], [2, 0, 0], [0, 1, 0.0]])
-    with pytest.raises(ValueError, match="facet 1 at .* has no area"):
+    with pytest.raises(ValueError, match=r"facet 1 at .* has no area"):
         build_mesh(points, np.array([[0, 1, 3], [0, 1, 2]]))

@@ -1,5 +1,7 @@
 """Loads, stresses, criteria and reactions against hand calculations."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from shell_cases import dense_stiffness, folded_strip, skewed_patch
@@ -9,6 +11,7 @@ from foldshell.shell.loads import LOAD_CASES, Loads, combination_matrix, nodal_f
 from foldshell.shell.material import (
     CRITERIA,
     Material,
+    age_material,
     principal_stresses,
     utilization_drucker_prager,
     utilization_rankine,
@@ -147,6 +150,14 @@ def test_criteria_do_not_depend_on_axes():
         assert criterion(other, CONCRETE) == pytest.approx(criterion(state, CONCRETE))
     high, low = principal_stresses(state)
     assert (high, low) == pytest.approx(tuple(np.linalg.eigvalsh(tensor)[::-1]))
+
+
+def test_creep_divides_the_modulus_alone():
+    """Effective modulus E / (1 + phi): deflections under fixed loads grow by 1 + phi."""
+    aged = age_material(CONCRETE, 1.5)
+    assert aged.youngs_modulus == pytest.approx(31e6 / 2.5)
+    assert replace(aged, youngs_modulus=CONCRETE.youngs_modulus) == CONCRETE
+    assert age_material(CONCRETE, 0.0) == CONCRETE
 
 
 def square_model(subdivisions: int = 4):

@@ -1,5 +1,7 @@
 """Geometric stiffness, buckling factors, second order and the linear solvers."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from shell_cases import dense_stiffness, folded_strip, skewed_patch
@@ -18,6 +20,7 @@ from foldshell.shell.linear_solver import (
 from foldshell.shell.loads import Loads
 from foldshell.shell.material import Material
 from foldshell.shell.mesh import build_mesh
+from foldshell.shell.results import reaction_imbalance, support_reactions
 from foldshell.shell.second_order import solve_second_order
 from foldshell.shell.stiffness import build_operators
 from foldshell.shell.stress import membrane_forces
@@ -258,6 +261,46 @@ def test_a_mechanism_is_refused_by_both_solvers(solver):
     values -= 1e-3 * values.max() * (model.pattern.indices == 0)
     with pytest.raises(NotPositiveDefiniteError, match="not positive definite"):
         factorise(model.pattern, values, solver)
+
+
+def test_a_mechanism_is_reported_with_its_place_and_without_numbers():
+    """A flap that hangs on one edge of an arch by a free hinge: its far corner moves most."""
+    points = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0], [3, 0.5, 0.0]])
+    facets = np.array([[0, 1, 2], [0, 2, 3], [1, 4, 2]])
+    mesh = build_mesh(points, facets, subdivisions=2)
+    held = np.flatnonzero(mesh.nodes[:, 0] <= 1 + 1e-9)
+    edge = mesh.element_edges[2][2]  # the flap's edge along the hinge, of its own from here on
+    elements = mesh.element_edges.copy()
+    elements[2][2] = mesh.edge_count
+    hinged = replace(mesh, element_edges=elements, edge_count=mesh.edge_count + 1)
+    assert edge in mesh.element_edges[0]
+    model = build_model(hinged, held, 0.2)
+    result = analyse_shell(model, np.full(3, 0.1), CONCRETE, Loads(), COMBINATIONS)
+    assert result.state == "mechanism"
+    assert result.place == 4
+    assert "(3.000, 0.500, 0.000)" in result.reason
+    assert np.isnan(result.displacement).all()
+
+
+def test_initial_shape_grows_as_its_factor_says():
+    """A stress-free shape a phi adds a phi / (factor - 1), for forces of the perfect shape.
+
+    Tolerance 2 %: the membrane forces themselves change in second order.
+    """
+    model = arch_model()
+    thickness = np.full(64, 0.05)
+    combination = {"S2": COMBINATIONS["S2"]}
+    perfect = analyse_shell(model, thickness, CONCRETE, Loads(), combination)
+    options = AnalysisOptions(imperfection=1e-3)
+    found = analyse_shell(model, thickness, CONCRETE, Loads(), combination, options)
+    shape = found.initial[: 3 * len(model.mesh.nodes)].reshape(-1, 3)
+    assert np.linalg.norm(shape, axis=1).max() == pytest.approx(1e-3)
+    assert found.initial @ found.loads[:, 0] >= 0
+    grown = (found.displacement - perfect.displacement)[:, 0]
+    along = grown @ found.initial / (found.initial @ found.initial)
+    assert along == pytest.approx(1 / (perfect.buckling.factors[0] - 1), rel=0.02)
+    reactions = support_reactions(model, found, thickness, CONCRETE)
+    assert reaction_imbalance(model, found, reactions) < 1e-7
 
 
 def test_supports_on_one_line_are_refused():

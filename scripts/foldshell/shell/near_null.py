@@ -1,0 +1,35 @@
+"""Where a stiffness that is not positive definite gives way: its near-null vector."""
+
+import numpy as np
+
+from foldshell.shell.assembly import LowerPattern
+from foldshell.shell.linear_solver import NotPositiveDefiniteError, factorise
+
+SEED = 2018
+SHIFTS = (1e-10, 1e-8, 1e-6, 1e-4, 1e-2)
+"""Multiples of the diagonal that are added until a factor exists."""
+
+
+def find_near_null_vector(
+    pattern: LowerPattern, values: np.ndarray, solver: str = "cholmod", iterations: int = 6
+) -> np.ndarray | None:
+    """Return the eigenvector (size,) of the least eigenvalue of D^-1/2 K D^-1/2, D = diag K.
+
+    By inverse iteration on K + s D with the least s of `SHIFTS` that has a factor; None if none
+    has. It tells the place of a mechanism; pivots tell only where elimination met it.
+    """
+    diagonal = values[pattern.indptr[:-1]]
+    weight = np.where(diagonal > 0, diagonal, np.abs(diagonal).max() or 1.0)
+    for shift in SHIFTS:
+        moved = values.copy()
+        moved[pattern.indptr[:-1]] += shift * weight
+        try:
+            factor = factorise(pattern, moved, solver)
+        except NotPositiveDefiniteError:
+            continue
+        vector = np.random.default_rng(SEED).standard_normal((pattern.size, 1))
+        for _ in range(iterations):
+            vector = factor.solve(weight[:, None] * vector)
+            vector /= np.abs(vector).max()
+        return vector[:, 0]
+    return None
