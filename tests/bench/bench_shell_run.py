@@ -26,13 +26,8 @@ from verification.folded_cases import CASES, CONCRETE  # noqa: E402
 SHAPES = {"ASDShellT3": "T3", "ASDShellQ4": "Q4", "S3": "T3", "S6": "T6", "S8R": "Q8"}
 
 
-def run_opensees(case, n, element, system, task):
-    """Return CPU s, wall s, dofs and the largest downward displacement."""
-    import openseespy.opensees as ops
-
-    model = peer_model(case, n, SHAPES[element])
-    forces = model.forces if task == "linear7" else (model.forces[..., :5] @ COMBINATION)[..., None]
-    began = time.process_time(), time.perf_counter()
+def _build_opensees(ops, model, element, flags):
+    """Enter nodes, supports, section and elements."""
     ops.wipe()
     ops.model("basic", "-ndm", 3, "-ndf", 6)
     for tag, point in enumerate(model.nodes.tolist(), 1):
@@ -41,9 +36,18 @@ def run_opensees(case, n, element, system, task):
         ops.fix(tag, 1, 1, 1, 0, 0, 0)
     ops.section("ElasticMembranePlateSection", 1, CONCRETE.youngs_modulus,
                 CONCRETE.poissons_ratio, model.thickness, 0.0)  # fmt: skip
-    flags = ["-corotational"] if task == "corotational" else []
     for tag, nodes in enumerate((model.elements + 1).tolist(), 1):
         ops.element(element, tag, *nodes, 1, *flags)
+
+
+def run_opensees(case, n, element, system, task):
+    """Return CPU s, wall s, dofs and the largest downward displacement."""
+    import openseespy.opensees as ops
+
+    model = peer_model(case, n, SHAPES[element])
+    forces = model.forces if task == "linear7" else (model.forces[..., :5] @ COMBINATION)[..., None]
+    began = time.process_time(), time.perf_counter()
+    _build_opensees(ops, model, element, ["-corotational"] if task == "corotational" else [])
     ops.constraints("Plain")
     ops.numberer("RCM" if system != "UmfPack" else "Plain")
     ops.system(system)

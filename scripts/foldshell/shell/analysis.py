@@ -153,17 +153,24 @@ def analyse_shell(
     second = solution.second_order(linear, options, initial)
     displacement = np.zeros_like(linear)
     displacement[model.pattern.dofs] = second.displacement
-    worst = int(np.argmax(second.residual))
-    reason = "" if second.converged else (
-        f"second order of {names[worst]} stands at a relative change of "
-        f"{second.residual[worst]:.1e} after {second.iterations} iterations"
-    )  # fmt: skip
-    state = "ok" if second.converged and buckling.converged else "not_converged"
-    if second.converged and not buckling.converged:
-        reason = f"buckling factors still change by {buckling.change.max():.1e}"
+    state, reason = _judge(names, second, buckling)
     return AnalysisResult(
         state, reason, names, displacement, linear, total, buckling, second, initial=initial
     )
+
+
+def _judge(names, second: SecondOrderResult, buckling: BucklingResult) -> tuple[str, str]:
+    """Return the state, and in words what did not converge."""
+    if not second.converged:
+        worst = int(np.argmax(second.residual))
+        return "not_converged", (
+            f"second order of {names[worst]} stands at a relative change of "
+            f"{second.residual[worst]:.1e} after {second.iterations} iterations"
+        )
+    if not buckling.converged:
+        change = buckling.change.max()
+        return "not_converged", f"buckling factors still change by {change:.1e}"
+    return "ok", ""
 
 
 def _initial_shape(model, buckling, column: int, loads, size: float) -> np.ndarray | None:

@@ -69,18 +69,20 @@ def find_buckling_factors(
     start : (size, c) modes of a similar structure to begin with
     tolerance : on `change`, see `BucklingResult`
     """
-    representative, ratio = _proportional_columns(factors)
-    if len(representative) < factors.shape[1]:
-        first, which = np.unique(representative, return_inverse=True)
-        begin = None if start is None else start[:, first]
-        found = find_buckling_factors(
-            solve, apply_cases, factors[:, first], size, begin, tolerance, iterations_max
-        )
-        with np.errstate(divide="ignore"):
-            values = np.where(ratio > 0, found.factors[which] / ratio, np.inf)
-        return replace(
-            found, factors=values, modes=found.modes[:, which], change=found.change[which]
-        )
+    first, which, ratio = _proportional_columns(factors)
+    begin = None if start is None else start[:, first]
+    found = _find_distinct(
+        solve, apply_cases, factors[:, first], size, begin, tolerance, iterations_max
+    )
+    with np.errstate(divide="ignore"):
+        values = np.where(ratio > 0, found.factors[which] / ratio, np.inf)
+    return replace(found, factors=values, modes=found.modes[:, which], change=found.change[which])
+
+
+def _find_distinct(
+    solve, apply_cases, factors, size, start, tolerance, iterations_max
+) -> BucklingResult:
+    """Find the factors of combinations none of which is a multiple of another."""
     space = _Subspace(solve, apply_cases, len(factors), size)
     begin = np.random.default_rng(START_SEED).standard_normal((size, START_VECTORS))
     if start is not None:
@@ -107,8 +109,8 @@ def find_buckling_factors(
     return BucklingResult(result, modes, change[0], space.solves, done)
 
 
-def _proportional_columns(factors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return for each combination the first one it is a multiple of, and that multiple.
+def _proportional_columns(factors: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return the distinct combinations, which of them each one is a multiple of, and the multiple.
 
     Proportional combinations share their mode.
     """
@@ -116,7 +118,8 @@ def _proportional_columns(factors: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     direction = factors / np.where(length > 0, length, 1)
     same = (np.abs(direction[:, :, None] - direction[:, None]) < 1e-13).all(axis=0)
     first = same.argmax(axis=1)
-    return first, length / np.where(length[first] > 0, length[first], 1)
+    distinct, which = np.unique(first, return_inverse=True)
+    return distinct, which, length / np.where(length[first] > 0, length[first], 1)
 
 
 def _own_images(apply_cases, vectors: np.ndarray, factors: np.ndarray) -> np.ndarray:

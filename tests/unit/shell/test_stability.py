@@ -145,6 +145,19 @@ def test_the_least_factor_is_found_among_many_local_modes(seed):
     assert result.factors == pytest.approx([5.0, 10.0], rel=1e-4)
 
 
+def test_multiples_of_a_combination_share_its_mode():
+    """Factors of proportional combinations are exactly inversely proportional."""
+    model = arch_model()
+    twice = {name: 2 * factor for name, factor in COMBINATIONS["S2"].items()}
+    result = analyse_shell(
+        model, np.full(64, 0.05), CONCRETE, Loads(), COMBINATIONS | {"S9": twice, "none": {}}
+    )
+    factors = dict(zip(result.names, result.buckling.factors, strict=True))
+    assert factors["S9"] == pytest.approx(factors["S2"] / 2, rel=1e-14)
+    assert factors["none"] == np.inf
+    assert factors["D3"] != pytest.approx(factors["S2"], rel=1e-3)
+
+
 def test_pure_tension_has_no_buckling_factor():
     size = 5
     result = find_buckling_factors(
