@@ -68,7 +68,7 @@ def _draw_strengths(axis, rows: list[dict[str, Any]], kind: str) -> None:
                 [row["rms_over_span"] for row in shown],
                 [max(row["shear_max"], 1e-4) for row in shown],
                 marker=mark, color=colour, alpha=0.7,
-                label=f"{surface}, {'folded' if folded else 'not folded'}",
+                label=f"{surface}, {'reached, panels kept' if folded else 'missed or sheared'}",
             )  # fmt: skip
     axis.set(
         xscale="log", yscale="log", title=f"Force strengths on {kind}",

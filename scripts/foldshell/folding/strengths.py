@@ -35,8 +35,11 @@ class Trial:
     """One choice of strengths and what it led to; ratios are non-dimensional.
 
     `panel` is the strength that keeps panels flat: planarity of quadrilaterals, the neutral
-    fold of triangles. `shear_max` is the strain of a diagonal. `folded` says that the target was
-    reached by the panels that were given, with every fold its own way.
+    fold of triangles. `shear_max` is the strain of a diagonal. `reached` says that
+    the lowest vertices met the target with every fold its own way and no cuts; `folded` asks
+    besides that no diagonal strained by more than SHEARED. On quadrilaterals the two differ:
+    nothing but the border and hinges resists shear there, so the verdict depends on which of
+    them one calls folded, and both are kept.
     """
 
     panels: str
@@ -49,6 +52,7 @@ class Trial:
     flipped_folds: int
     self_intersections: int
     iterations: int
+    reached: bool
     folded: bool
 
 
@@ -91,11 +95,12 @@ def try_strengths(
     flipped = count_flipped(measure_folds(vertices, grid), grid)
     cuts = len(find_intersections(vertices, grid.facets))
     rms = root_mean_square(distances) / target.span
+    reached = rms <= REACHED and not flipped and not cuts
     return Trial(
         panels, float(attraction), float(panel), rms,
         float(strain[: grid.neutral.start].max()), shear,
         float(measure_planarity(vertices, grid.quads).max()), flipped, cuts,
-        minimum.iterations, rms <= REACHED and shear <= SHEARED and not flipped and not cuts,
+        minimum.iterations, reached, reached and shear <= SHEARED,
     )  # fmt: skip
 
 

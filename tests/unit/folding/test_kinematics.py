@@ -89,4 +89,5 @@ def test_triangles_keep_their_panels_and_quadrilaterals_shear(panel):
         for kind in ("quadrilaterals", "triangles")
     )
     assert triangles.folded and triangles.shear_max < 0.1
+    assert quads.reached  # the target is met all the same, by other panels than were given
     assert not quads.folded and quads.shear_max > 0.2
