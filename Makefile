@@ -36,7 +36,7 @@ test: $(STAMP)
 	PATH="$(CURDIR)/$(RUN):$$PATH" python -m pytest
 
 verification: $(STAMP)
-	PATH="$(CURDIR)/$(RUN):$$PATH" python -m pytest -m verification
+	PATH="$(CURDIR)/$(RUN):$$PATH" python -m pytest -m "verification or slow"
 
 bench: $(STAMP)
 	PATH="$(CURDIR)/$(RUN):$$PATH" python -m pytest -m bench tests/bench -s
