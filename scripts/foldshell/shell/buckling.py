@@ -30,6 +30,9 @@ START_VECTORS = 8
 START_SEED = 2018
 """Seed of the start vectors, fixed so that reruns agree to the last bit."""
 
+CANCELLATION = 1e-6
+"""Share of a vector's energy outside the basis below which it is made orthogonal once more."""
+
 ROOM = 96
 """Vectors for which memory is set aside at first."""
 
@@ -92,11 +95,11 @@ def _find_distinct(
     limit = np.array([tolerance, *[NEIGHBOUR_TOLERANCE] * (PAIRS - 1)])[:, None]
     for number in range(iterations_max):
         values, vectors = space.largest(factors, PAIRS)
-        searching = (values * LARGEST_FACTOR > 1) | (number < SEARCH_ITERATIONS)
+        searching = (values * LARGEST_FACTOR > 1) | ((number < SEARCH_ITERATIONS) & (values != 0))
         pair, column = np.nonzero((change > limit) & searching)
         if not len(pair):
             break
-        modes = space.basis @ vectors[pair, :, column].T
+        modes = space.combine(vectors[pair, :, column].T)
         images = _own_images(apply_cases, modes, factors[:, column])
         better = space.extend(images)
         energy = (better * images).sum(axis=0) / values[pair, column] ** 2
@@ -105,7 +108,7 @@ def _find_distinct(
     compressed = values[0] * LARGEST_FACTOR > 1
     result = np.where(compressed, 1 / np.where(compressed, values[0], 1.0), np.inf)
     done = bool(((change[0] <= tolerance) | ~compressed).all())
-    modes = space.basis @ vectors[0]
+    modes = space.combine(vectors[0])
     return BucklingResult(result, modes, change[0], space.solves, done)
 
 
@@ -138,27 +141,33 @@ class _Subspace:
         self._projected = np.empty((cases, 0, 0))
         self.solves = 0
 
-    @property
-    def basis(self) -> np.ndarray:
-        """The basis, (size, k)."""
-        return self._room[0, : self._count].T
+    def combine(self, coefficients: np.ndarray) -> np.ndarray:
+        """Return the vectors (size, n) that have coefficients (k, n) in the basis."""
+        return (coefficients.T @ self._room[0, : self._count]).T
 
     def extend(self, forces: np.ndarray) -> np.ndarray:
         """Add Z = K^-1 forces to the basis; return Z as solved."""
         solved = self._solve(forces)
         self.solves += forces.shape[1]
-        basis, own_forces = self.basis, self._room[1, : self._count].T
-        vectors = solved
+        old = self._count
+        basis, own_forces = self._room[:, :old]
+        # rows hold vectors: products of long rows are several times as fast as of long columns
+        vectors, forces = np.array(solved.T, order="C"), np.array(forces.T, order="C")
         for _ in range(2):
-            overlap = own_forces.T @ vectors
-            vectors, forces = vectors - basis @ overlap, forces - own_forces @ overlap
+            before = np.einsum("ks,ks->k", vectors, forces)
+            overlap = vectors @ own_forces.T
+            vectors -= overlap @ basis
+            forces -= overlap @ own_forces
+            left = np.einsum("ks,ks->k", vectors, forces)
             vectors, forces = _orthonormalise(vectors, forces)
-        old, new = self._count, self._count + vectors.shape[1]
+            if (left > CANCELLATION * before).all():
+                break
+        new = old + len(vectors)
         if new > self._room.shape[1]:
             self._room = np.concatenate([self._room, np.empty_like(self._room)], axis=1)
-        self._room[0, old:new], self._room[1, old:new] = vectors.T, forces.T
+        self._room[0, old:new], self._room[1, old:new] = vectors, forces
         self._count = new
-        added = np.matmul(self._room[0, :new], self._apply(vectors))
+        added = np.matmul(self._room[0, :new], self._apply(vectors.T))
         grown = np.zeros((len(self._projected), new, new))
         grown[:, :old, :old] = self._projected
         grown[:, :, old:] = added
@@ -175,10 +184,10 @@ class _Subspace:
 
 
 def _orthonormalise(vectors: np.ndarray, forces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Make vectors^T forces (= Z^T K Z) the identity, leaving out dependent directions."""
-    gram = vectors.T @ forces
+    """Make vectors forces^T (= Z K Z^T, rows Z) the identity, leaving out dependent directions."""
+    gram = vectors @ forces.T
     scale = 1 / np.sqrt(np.maximum(np.diag(gram), 1e-300))
     values, rotation = np.linalg.eigh((gram + gram.T) / 2 * scale * scale[:, None])
     keep = values > 1e-12
-    mix = scale[:, None] * rotation[:, keep] / np.sqrt(values[keep])
-    return vectors @ mix, forces @ mix
+    mix = (scale[:, None] * rotation[:, keep] / np.sqrt(values[keep])).T
+    return mix @ vectors, mix @ forces

@@ -120,7 +120,7 @@ class CholmodLibrary:
         if not answer:
             raise MemoryError(f"CHOLMOD could not solve for {columns} right-hand sides")
         values = ctypes.cast(answer.contents.x, ctypes.POINTER(ctypes.c_double))
-        result = np.ctypeslib.as_array(values, (columns, rows)).T.copy(order="C")
+        result = np.ctypeslib.as_array(values, (columns, rows)).copy().T
         self._free_dense(ctypes.byref(answer), self._common)
         return result
 
