@@ -54,7 +54,8 @@ def analyse_classes(
         if found["state"] != "ok" or share.max() <= 1 or raised == ROUNDS_MAX:
             break
         more = np.where(share > 1, thickness * share * SAFETY, needed)
-        needed = np.minimum(np.maximum(needed, more), case.rule.largest_thickness)
+        raised_to = np.minimum(np.maximum(needed, more), case.rule.largest_thickness)
+        needed = round_thickness(raised_to)
     report = {
         **_judge(found),
         "count": count,

@@ -102,7 +102,7 @@ def build_case(second_order):
     return model, material, plan, thickness, analyse
 
 
-def compare_slopes(case, measure):
+def compare_slopes(case, measure, size=1e-4):
     """Return values, change along a random direction, and central differences of all three."""
     model, material, plan, thickness, analyse = case
     rule = StopRule(0.04, 1.0, 0.6, 1.0, 240, 10.0, 0.01, 30, "table3", measure)
@@ -123,7 +123,7 @@ def compare_slopes(case, measure):
         model, result, thickness[model.mesh.panel], material,
         combination_matrix(plan.combinations), used, rule, 6.0, 1.0,
     )  # fmt: skip
-    way = 1e-4 * thickness * np.random.default_rng(3).standard_normal(PANELS)
+    way = size * thickness * np.random.default_rng(3).standard_normal(PANELS)
     one, two = respond(thickness + way)[2:], respond(thickness - way)[2:]
     exact = [(a - b) / 2 for a, b in zip(one, two, strict=True)]
     return found.value, found.gradient @ way, exact
@@ -146,13 +146,13 @@ def test_first_order_gradients_are_those_of_differences(everything_counts, measu
 
 
 def test_second_order_gradients_are_near_those_of_differences(everything_counts):
-    """The tangent leaves out the second-order part of the stiffness; the buckling factor is that
-    of first-order forces, so its slope is exact (2e-3: its mode is found to 1e-3)."""
-    value, change, exact = compare_slopes(build_case(True), "panel_mean")
+    """The tangent leaves out the second-order part of the stiffness: 3 %. The buckling factor is
+    that of first-order forces, but found to 1e-5 of itself: 1 % of a difference of 1e-3."""
+    value, change, exact = compare_slopes(build_case(True), "panel_mean", 1e-3)
     assert change[:PANELS] == pytest.approx(exact[0], abs=0.03 * np.abs(exact[0]).max())
     worst = PANELS + np.argmax(value[PANELS : -len(exact[2])])
     assert change[worst] == pytest.approx(exact[1], rel=0.03)
-    assert change[-len(exact[2]) :] == pytest.approx(exact[2], rel=2e-3)
+    assert change[-len(exact[2]) :] == pytest.approx(exact[2], rel=0.02)
 
 
 def test_adjoint_solves_the_same_system():
