@@ -2,7 +2,7 @@
 
 import math
 
-from foldshell.study.designs import select_designs
+from foldshell.study.designs import SURFACES, select_designs
 from foldshell.study.imports import library_files
 from foldshell.study.stages import choose_subdivisions, settings_hash, stage_parameters
 
@@ -30,6 +30,12 @@ def of_design(*columns):
 def of_stage(stage):
     """Return a function of the wildcards that gives the plain settings of a stage."""
     return lambda wildcards: stage_parameters(SETTINGS, stage, BY_NAME[wildcards.design])
+
+
+def surface_file(wildcards):
+    """Return the mesh file that is a design's target surface, if it is one."""
+    surface = BY_NAME[wildcards.design].surface
+    return [] if surface in SURFACES else [surface]
 
 
 def subdivisions(wildcards):

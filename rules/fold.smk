@@ -3,6 +3,7 @@ rule fold:
         "{wildcards.design}: folding onto the target surface"
     input:
         fold=rules.pattern.output.fold,
+        surface=surface_file,
         library=library("fold"),
     output:
         folded=f"{RESULTS}/{{design}}/folded/folded.npz",

@@ -2,6 +2,7 @@ rule pattern:
     message:
         "{wildcards.design}: crease pattern"
     input:
+        surface=surface_file,
         library=library("pattern"),
     output:
         fold=f"{RESULTS}/{{design}}/pattern/crease_pattern.fold",

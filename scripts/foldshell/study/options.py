@@ -40,8 +40,23 @@ class FoldWeights:
     hinge: float
     hinge_steep: float
     neutral_fold: float
+    neutral_fold_steep: float
     attraction: float
     plan_edge: float
+    plan_edge_steep: float
+
+
+@dataclass(frozen=True)
+class ExactWeights:
+    """Weights of the modes exact and rigid (-)."""
+
+    stretch: float
+    hinge: float
+    neutral_fold: float
+    plan_edge: float
+    fairness: float
+    attraction: float
+    margin: float
 
 
 @dataclass(frozen=True)
@@ -59,6 +74,7 @@ class Fold:
     engine: str
     attract: str
     weights: FoldWeights
+    exact: ExactWeights
     max_iterations: int
     tolerance: float
     limits: FoldLimits

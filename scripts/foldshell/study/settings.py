@@ -18,6 +18,7 @@ from foldshell.study.options import (
     Combinations,
     Crosscheck,
     Defaults,
+    ExactWeights,
     Figures,
     Fold,
     FoldLimits,
@@ -55,6 +56,7 @@ _GROUPS = {
 }
 _NESTED = {
     ("fold", "weights"): FoldWeights,
+    ("fold", "exact"): ExactWeights,
     ("fold", "limits"): FoldLimits,
     ("crosscheck", "tolerance"): Tolerance,
 }
