@@ -5,8 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from foldshell.sizing.constraints import read_constraints
-from foldshell.sizing.rules import SizingLimits
-from foldshell.sizing.step import StepRule, propose_thickness
+from foldshell.sizing.step import make_step_rule, propose_thickness, summarise_step
 from foldshell.study.errors import user_errors
 from foldshell.study.files import read_arrays, read_json, write_arrays
 from foldshell.workbook.edits import record_written
@@ -30,9 +29,7 @@ def main(
 ) -> None:
     """Write thickness.xlsx, memory.npz and written.json of the iteration after `json_path`."""
     sizing = settings["sizing"]
-    limits = SizingLimits(**{name: sizing[name] for name in SizingLimits.__dataclass_fields__})
-    factor = sizing["thinning_buckling_factor_min"]
-    rule = StepRule(sizing["rule"], sizing["step"], factor, limits, sizing["move_limit"])
+    rule = make_step_rule(sizing)
     analysis, arrays = read_json(json_path), read_arrays(arrays_path)
     thickness, used = arrays["thickness"], arrays.get(f"utilization_{sizing['measure']}")
     memory = read_arrays(previous_memory) if previous_memory else {}
@@ -42,17 +39,9 @@ def main(
     table = ThicknessTable(
         make_panel_grid(zigzag, strip), new, thickness, used, new / thickness - 1, following.note
     )
-    summary = {
-        "design": design,
-        "iteration": analysis["iteration"] + 1,
-        "verdict": f"{analysis['verdict']}: {analysis['reason']}",
-        "volume_m3": analysis["volume_m3"],
-        **{f"{name}_m": sizing[name] for name in ("least_thickness", "largest_thickness")},
-        **{name: sizing[name] for name in ("utilization_min", "utilization_max")},
-        "settings_hash": settings_hash,
-    }
-    bounds = (limits.least_thickness, limits.largest_thickness)
-    write_thickness(workbook_path, table, summary, *bounds, limits.utilization_max)
+    summary = summarise_step(design, analysis, sizing) | {"settings_hash": settings_hash}
+    bounds = (rule.limits.least_thickness, rule.limits.largest_thickness)
+    write_thickness(workbook_path, table, summary, *bounds, rule.limits.utilization_max)
     write_arrays(memory_path, following.memory)
     record_written(workbook_path, record_path)
 

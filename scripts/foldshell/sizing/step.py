@@ -53,6 +53,27 @@ class NextStep:
     memory: dict[str, np.ndarray]
 
 
+def make_step_rule(sizing: Mapping[str, Any]) -> StepRule:
+    """Return the settings of the step from the plain settings of the stage `resize`."""
+    limits = SizingLimits(**{name: sizing[name] for name in SizingLimits.__dataclass_fields__})
+    names = ("rule", "step", "thinning_buckling_factor_min", "move_limit")
+    return StepRule(**{name: sizing[name] for name in names}, limits=limits)
+
+
+def summarise_step(
+    design: str, analysis: Mapping[str, Any], sizing: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Return what the workbook of the next iteration says on its summary, by keys with units."""
+    return {
+        "design": design,
+        "iteration": analysis["iteration"] + 1,
+        "verdict": f"{analysis['verdict']}: {analysis['reason']}",
+        "volume_m3": analysis["volume_m3"],
+        **{f"{name}_m": sizing[name] for name in ("least_thickness", "largest_thickness")},
+        **{name: sizing[name] for name in ("utilization_min", "utilization_max")},
+    }
+
+
 def propose_thickness(
     analysis: Mapping[str, Any],
     thickness: np.ndarray,
