@@ -15,6 +15,7 @@ if __name__ == "__main__":
     HERE = Path(__file__).resolve().parent
     sys.path[:0] = [str(HERE), str(HERE.parent), str(HERE.parents[1] / "scripts")]
 
+from folded_cases import CASES, analyse_case
 from shell_buckling_problems import (
     beam_column,
     cylinder_under_axial_load,
@@ -149,6 +150,39 @@ def patch_rows() -> list[list[str]]:
     return rows
 
 
+FOLDED_MESHES = (2, 4, 8, 12)
+
+
+def folded_rows() -> list[list[str]]:
+    """Return displacement and work over their limits, and p99 utilization, of six folded sheets."""
+    rows = []
+    for case in CASES:
+        found = [analyse_case(case, n) for n in FOLDED_MESHES]
+        series = [
+            [value["displacement_mm"] / case.displacement_mm for value in found],
+            [value["work_knm"] / case.work_knm for value in found],
+            [value["utilization_p99"] for value in found],
+        ]
+        dofs = ", ".join(str(value["dofs"]) for value in found)
+        cells = [", ".join(f"{value:.3f}" for value in values) for values in series]
+        rows.append(
+            [str(case), f"{case.displacement_mm:g} mm, {case.work_knm:g} kNm", dofs, *cells]
+        )
+    return rows
+
+
+FOLDED_HEAD = """
+## Thin folded sheets
+
+Sheets of 28 m x 10 m with 15 x 16 lines under 1.2 (SW + SDL) + 1.6 LL + 0.5 WX, first order. The
+limits were bracketed by two other element families refined to 16 x 16 triangles a facet, to about
+1 %. Meshes n = 2, 4, 8, 12. On n = 4 displacement and work are within 5 %, on n = 8 within 2 %;
+the 99th percentile of utilization on n = 8 is within 5 % of that on n = 12.
+
+| sheet | limits | freedoms | displacement / limit | work / limit | p99 utilization |
+|---|---|---|---|---|---|
+"""
+
 HEAD = """# Verification of the shell element
 
 Written by `python tests/verification/shell_chapter.py`; `pytest -m verification` solves everything
@@ -166,8 +200,11 @@ strains of buckling as those of a shallow shell; the difference falls with t / R
 
 def render() -> str:
     """Return the text of README.md."""
-    lines = ["| " + " | ".join(row) + " |" for row in patch_rows() + table_rows()]
-    return HEAD + "\n".join(lines) + "\n"
+    return HEAD + _table(patch_rows() + table_rows()) + FOLDED_HEAD + _table(folded_rows())
+
+
+def _table(rows: list[list[str]]) -> str:
+    return "".join("| " + " | ".join(row) + " |\n" for row in rows)
 
 
 if __name__ == "__main__":

@@ -30,3 +30,10 @@ def test_refined_meshes_reach_the_limits(case):
 def test_p99_utilization_at_the_studys_mesh_is_within_8_percent_of_the_refined_one(case):
     coarse, fine = (analyse_case(case, n)["utilization_p99"] for n in (4, 8))
     assert coarse == pytest.approx(fine, rel=0.08)
+
+
+@pytest.mark.verification
+@pytest.mark.parametrize("case", CASES, ids=str)
+def test_p99_utilization_is_within_5_percent_on_the_mesh_of_8(case):
+    coarse, fine = (analyse_case(case, n)["utilization_p99"] for n in (8, 12))
+    assert coarse == pytest.approx(fine, rel=0.05)

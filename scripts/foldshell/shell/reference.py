@@ -145,16 +145,16 @@ def lagrange_basis(order: int, points: np.ndarray) -> tuple[np.ndarray, np.ndarr
 
 def _monomials(order: int, points: np.ndarray, dr: int, ds: int) -> np.ndarray:
     """Return the (dr, ds) derivative of all monomials of total degree <= order, (q, n)."""
-    r, s = points.T
-    return np.column_stack(
-        [
-            _power_derivative(r, i, dr) * _power_derivative(s, j, ds)
-            for i in range(order + 1)
-            for j in range(order + 1 - i)
-        ]
-    )
+    powers = np.array([(i, j) for i in range(order + 1) for j in range(order + 1 - i)])
+    in_r = _power_derivatives(points[:, 0], order, dr)
+    in_s = _power_derivatives(points[:, 1], order, ds)
+    return in_r[:, powers[:, 0]] * in_s[:, powers[:, 1]]
 
 
-def _power_derivative(x: np.ndarray, power: int, times: int) -> np.ndarray:
-    factor = np.prod([power - k for k in range(times)]) if times else 1.0
-    return factor * x ** max(power - times, 0) if times <= power else np.zeros_like(x)
+def _power_derivatives(x: np.ndarray, order: int, times: int) -> np.ndarray:
+    """Return the derivatives (q, order + 1) of x^0 to x^order."""
+    power = np.arange(order + 1)
+    factor = np.ones(order + 1)
+    for k in range(times):
+        factor = factor * (power - k)
+    return factor * x[:, None] ** np.maximum(power - times, 0)

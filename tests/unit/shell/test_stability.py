@@ -247,6 +247,30 @@ def test_two_factors_of_one_pattern_do_not_disturb_each_other():
     assert (one.solve(right) == before).all()
 
 
+def test_superlu_alone_gives_the_same_analysis():
+    """Displacements to 1e-7 (second order stops at 1e-8), factors to 1e-4 (change 3e-3 squared)."""
+    model = arch_model()
+    thickness = np.full(64, 0.04)
+    one, two = (
+        analyse_shell(
+            model, thickness, CONCRETE, Loads(), COMBINATIONS, AnalysisOptions(solver=solver)
+        )
+        for solver in ("cholmod", "superlu")
+    )
+    scale = np.abs(one.displacement).max()
+    assert two.displacement == pytest.approx(one.displacement, abs=1e-7 * scale)
+    assert two.buckling.factors == pytest.approx(one.buckling.factors, rel=1e-4)
+
+
+def test_an_analysis_repeats_to_the_last_bit():
+    model = arch_model()
+    thickness = np.full(64, 0.04)
+    one, two = (analyse_shell(model, thickness, CONCRETE, Loads(), COMBINATIONS) for _ in range(2))
+    assert (one.displacement == two.displacement).all()
+    assert (one.buckling.factors == two.buckling.factors).all()
+    assert (one.buckling.modes == two.buckling.modes).all()
+
+
 @pytest.mark.parametrize("order", [1, 2, 3, 5])
 def test_pattern_assembles_what_dense_matrices_sum_to(order):
     """Independent path: dense sums element by element, with scattered supports left out."""
