@@ -17,7 +17,7 @@ from foldshell.shell.linear_solver import Factor, NotPositiveDefiniteError, fact
 from foldshell.shell.loads import Loads, combination_matrix, nodal_forces, surface_loads
 from foldshell.shell.material import Material
 from foldshell.shell.mesh import ShellMesh
-from foldshell.shell.near_null import find_near_null_vector
+from foldshell.shell.near_null import find_near_null_vector, is_singular
 from foldshell.shell.second_order import SecondOrderResult, solve_second_order
 from foldshell.shell.stiffness import ShellOperators, build_operators
 from foldshell.shell.stress import membrane_forces
@@ -191,6 +191,8 @@ class _Solution:
         self._model, self._thickness = model, thickness
         self._modulus = material.youngs_modulus
         self._factor: Factor = factorise(model.pattern, values, solver)
+        if is_singular(self._factor.solve, model.pattern, values):
+            raise NotPositiveDefiniteError(0)
         self._dofs = model.pattern.dofs
 
     def solve(self, forces: np.ndarray) -> np.ndarray:
