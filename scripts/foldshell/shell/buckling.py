@@ -30,9 +30,6 @@ START_VECTORS = 8
 START_SEED = 2018
 """Seed of the start vectors, fixed so that reruns agree to the last bit."""
 
-CANCELLATION = 1e-6
-"""Share of a vector's energy outside the basis below which it is made orthogonal once more."""
-
 ROOM = 96
 """Vectors for which memory is set aside at first."""
 
@@ -154,14 +151,10 @@ class _Subspace:
         # rows hold vectors: products of long rows are several times as fast as of long columns
         vectors, forces = np.array(solved.T, order="C"), np.array(forces.T, order="C")
         for _ in range(2):
-            before = np.einsum("ks,ks->k", vectors, forces)
             overlap = vectors @ own_forces.T
             vectors -= overlap @ basis
             forces -= overlap @ own_forces
-            left = np.einsum("ks,ks->k", vectors, forces)
             vectors, forces = _orthonormalise(vectors, forces)
-            if (left > CANCELLATION * before).all():
-                break
         new = old + len(vectors)
         if new > self._room.shape[1]:
             self._room = np.concatenate([self._room, np.empty_like(self._room)], axis=1)
