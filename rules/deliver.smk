@@ -50,3 +50,12 @@ rule study_figures:
         "../envs/foldshell.yaml"
     script:
         "../scripts/study_figures.py"
+
+
+rule verify:
+    message:
+        "do the results still agree with what made them?"
+    params:
+        results=RESULTS,
+    script:
+        "../scripts/verify.py"
