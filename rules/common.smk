@@ -1,5 +1,6 @@
 # What the rules of all stages share: designs by name, parameters of a stage, library files.
 
+import json
 import math
 
 from foldshell.study.designs import SURFACES, select_designs
@@ -10,6 +11,8 @@ BY_NAME = {design.name: design for design in DESIGNS}
 SECTOR_ANGLE_DEG = round(math.degrees(SETTINGS.pattern.sector_angle), 10)
 PICTURES = ["thickness", "utilization", "displacement", "planarity"]
 PICTURES += ["strain", "force_lines", "isolines", "buckling"]
+LOOP = f"{RESULTS}/{{design}}/sizing"
+STEP = f"{LOOP}/{{iteration}}"
 # Relative in the project's own folder, so that a moved project does not run anew.
 SCRIPTS = "scripts" if Path.cwd() == Path(workflow.basedir) else f"{workflow.basedir}/scripts"
 
@@ -36,6 +39,42 @@ def surface_file(wildcards):
     """Return the mesh file that is a design's target surface, if it is one."""
     surface = BY_NAME[wildcards.design].surface
     return [] if surface in SURFACES else [surface]
+
+
+def before(name):
+    """Return a function of the wildcards: a file of the iteration before, none for the first."""
+
+    def find(wildcards):
+        number = int(wildcards.iteration) - 1
+        folder = f"{RESULTS}/{wildcards.design}/sizing/{number:02d}"
+        return [f"{folder}/{file}" for file in name] if number >= 0 else []
+
+    return find
+
+
+def memory_before_last(wildcards):
+    """Return what the sizing rule remembers of the step before the one it takes now."""
+    number = int(wildcards.iteration) - 1
+    folder = f"{RESULTS}/{wildcards.design}/sizing/{number:02d}"
+    return [f"{folder}/memory.npz"] if number > 0 else []
+
+
+def iterations(wildcards):
+    """Return every analysis.json up to the first whose verdict ends the loop.
+
+    A file that cannot be read ends the list; `size` says what is wrong with it.
+    """
+    files = []
+    for number in range(100):
+        step = checkpoints.analyse.get(design=wildcards.design, iteration=f"{number:02d}")
+        files.append(step.output.json)
+        try:
+            going_on = json.loads(Path(files[-1]).read_text())["verdict"] == "continue"
+        except (OSError, ValueError, KeyError, TypeError):
+            going_on = False
+        if not going_on:
+            break
+    return files
 
 
 def subdivisions(wildcards):

@@ -1,47 +1,6 @@
 # The thickness loop: workbook NN -> analyse NN -> resize NN -> workbook NN + 1, one real job each.
 # `analyse` is a checkpoint; `size` follows NN = 00, 01, ... until a verdict ends the loop.
 
-import json
-
-LOOP = f"{RESULTS}/{{design}}/sizing"
-STEP = f"{LOOP}/{{iteration}}"
-
-
-def before(name):
-    """Return a function of the wildcards: a file of the iteration before, none for the first."""
-
-    def find(wildcards):
-        number = int(wildcards.iteration) - 1
-        folder = f"{RESULTS}/{wildcards.design}/sizing/{number:02d}"
-        return [f"{folder}/{file}" for file in name] if number >= 0 else []
-
-    return find
-
-
-def memory_before_last(wildcards):
-    """Return what the sizing rule remembers of the step before the one it takes now."""
-    number = int(wildcards.iteration) - 1
-    folder = f"{RESULTS}/{wildcards.design}/sizing/{number:02d}"
-    return [f"{folder}/memory.npz"] if number > 0 else []
-
-
-def iterations(wildcards):
-    """Return every analysis.json up to the first whose verdict ends the loop.
-
-    A file that cannot be read ends the list; `size` says what is wrong with it.
-    """
-    files = []
-    for number in range(100):
-        step = checkpoints.analyse.get(design=wildcards.design, iteration=f"{number:02d}")
-        files.append(step.output.json)
-        try:
-            going_on = json.loads(Path(files[-1]).read_text())["verdict"] == "continue"
-        except (OSError, ValueError, KeyError, TypeError):
-            going_on = False
-        if not going_on:
-            break
-    return files
-
 
 rule start:
     message:

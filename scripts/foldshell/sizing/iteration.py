@@ -71,22 +71,7 @@ def run_iteration(
     result = analyse_shell(
         model, thickness, material, plan.loads, plan.combinations, options, modes
     )
-    area = panel_area(model)
-    report: dict[str, Any] = {
-        "iteration": task.iteration,
-        "state": result.state,
-        "volume_m3": float(area @ task.thickness),
-        "area_m2": float(area.sum()),
-        "buckling_factor": _factors(result),
-        "second_order_iterations": result.second_order.iterations if result.second_order else 0,
-        "second_order_residual": _largest_residual(result),
-        "dofs": model.pattern.size,
-        "mesh_subdivisions": model.mesh.subdivisions,
-        "element_order": model.mesh.order,
-    }
-    arrays: dict[str, np.ndarray] = {"thickness": task.thickness}
-    if result.buckling is not None:
-        arrays["buckling_modes"] = result.buckling.modes.astype(np.float32)
+    report, arrays = _describe(model, task, result)
     usable = result.state in ("ok", "not_converged")
     utilization = _utilization(model, result, thickness, material, plan) if usable else None
     panels = {
@@ -105,14 +90,38 @@ def run_iteration(
         report["panels_at_bound"] = _count_at_bound(task.thickness, rule)
         report["panels_above_one"] = int((panels[rule.measure] > rule.utilization_max).sum())
         arrays |= {f"utilization_{name}": values for name, values in panels.items()}
-    if factor_min is not None and result.state == "ok" and verdict.verdict == "continue":
+    going_on = verdict.verdict == "continue"
+    if factor_min is not None and result.state == "ok" and going_on:
         factors = combination_matrix(plan.combinations)
         arrays |= linearise_constraints(
             model, result, thickness, material, factors, utilization, rule, task.span, factor_min
         ).to_arrays()
-    if verdict.verdict != "continue":
+    if not going_on:
         arrays |= _final_fields(model, result, plan, utilization)
     report["seconds"] = time.perf_counter() - began
+    return report, arrays
+
+
+def _describe(
+    model: ShellModel, task: IterationTask, result: AnalysisResult
+) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
+    """Return what every analysis says of itself, whatever its state."""
+    area = panel_area(model)
+    report = {
+        "iteration": task.iteration,
+        "state": result.state,
+        "volume_m3": float(area @ task.thickness),
+        "area_m2": float(area.sum()),
+        "buckling_factor": _factors(result),
+        "second_order_iterations": result.second_order.iterations if result.second_order else 0,
+        "second_order_residual": _largest_residual(result),
+        "dofs": model.pattern.size,
+        "mesh_subdivisions": model.mesh.subdivisions,
+        "element_order": model.mesh.order,
+    }
+    arrays = {"thickness": task.thickness}
+    if result.buckling is not None:
+        arrays["buckling_modes"] = result.buckling.modes.astype(np.float32)
     return report, arrays
 
 
