@@ -39,6 +39,7 @@ verification: $(STAMP)
 	PATH="$(CURDIR)/$(RUN):$$PATH" python -m pytest -m "verification or slow"
 
 bench: $(STAMP)
+	-$(RUN)/python -m pip install --quiet --disable-pip-version-check -r envs/bench.in
 	PATH="$(CURDIR)/$(RUN):$$PATH" python -m pytest -m bench tests/bench -s
 
 lint: $(STAMP)
