@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from foldshell.study.errors import InputError
-from foldshell.study.files import read_arrays, read_json
+from foldshell.study.files import TEMPORARY_PREFIX, read_arrays, read_json
 from foldshell.workbook.edits import keep_edited
 from foldshell.workbook.history import make_history
 
@@ -67,8 +67,11 @@ def remove_superseded(sizing: Path, count: int) -> list[int]:
     """Remove the folders of iterations `count`, `count` + 1, ...; return their numbers.
 
     They stem from an earlier run, before an edit or another setting ended the loop sooner. Copies
-    of edited workbooks in them move to `superseded/`.
+    of edited workbooks in them move to `superseded/`. Half-written files that a kill left in the
+    others go too.
     """
+    for leftover in sizing.glob(f"[0-9][0-9]/{TEMPORARY_PREFIX}*"):
+        leftover.unlink()
     removed = []
     for folder in sorted(sizing.glob("[0-9][0-9]")):
         if int(folder.name) < count:

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 
 from foldshell.sizing.criteria import IterationState, StopRule, judge_iteration
+from foldshell.sizing.gather import remove_superseded
 from foldshell.sizing.rules import (
     SizingLimits,
     SizingState,
@@ -173,3 +174,12 @@ def test_stationary_asks_for_three_quiet_iterations():
     assert verdicts == ["continue", "continue", "converged", "converged"]
     loud = judge_iteration(iteration(previous_volume=105.0, previous_quiet=2), rule)
     assert loud.verdict == "continue" and loud.quiet == 0
+
+
+def test_gathering_removes_what_a_kill_left_half_written(tmp_path):
+    whole, half = tmp_path / "00/analysis.npz", tmp_path / "00/.writing-abc.npz"
+    whole.parent.mkdir()
+    whole.write_bytes(b"whole")
+    half.write_bytes(b"ha")
+    assert remove_superseded(tmp_path, 1) == []
+    assert whole.exists() and not half.exists()
