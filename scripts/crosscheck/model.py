@@ -10,6 +10,7 @@ from crosscheck.reading import Place, read_json
 
 FORMAT = "foldshell-neutral-model 1"
 CASES = ("SW", "SDL", "LL", "WX", "WY")
+CRITERIA = ("von_mises", "rankine", "drucker_prager")
 
 
 @dataclass(frozen=True)
@@ -21,7 +22,7 @@ class Material:
     unit_weight: float
     strength: float
     strength_tension: float
-    criterion: str  # von_mises | rankine
+    criterion: str  # one of CRITERIA
 
 
 @dataclass(frozen=True)
@@ -125,7 +126,7 @@ def _read_material(place: Place) -> Material:
         unit_weight=place.key("unit_weight_kn_m3").number(least=0.0),
         strength=place.key("strength_kpa").number(above=0.0),
         strength_tension=place.key("strength_tension_kpa").number(above=0.0),
-        criterion=place.key("criterion").one_of(["von_mises", "rankine"]),
+        criterion=place.key("criterion").one_of(list(CRITERIA)),
     )
 
 

@@ -38,7 +38,7 @@ def compute_utilization(
     elasticity = section.youngs_modulus * build_plane_elasticity(section.poissons_ratio)
     middle = membrane @ elasticity
     bending = curvature @ elasticity * (section.thickness[:, None, None, None, None] / 2)
-    use = rate_stress if material.criterion == "von_mises" else rate_principal_stress
+    use = RATES[material.criterion]
     return np.max([use(middle + z * bending, material) for z in (-1, 0, 1)], axis=0)
 
 
@@ -54,6 +54,25 @@ def rate_principal_stress(stress: np.ndarray, material: Material) -> np.ndarray:
     middle, radius = (x + y) / 2, np.hypot((x - y) / 2, xy)
     tension = (middle + radius) / material.strength_tension
     return np.maximum(np.maximum(tension, (radius - middle) / material.strength), 0.0)
+
+
+def rate_pressure(stress: np.ndarray, material: Material) -> np.ndarray:
+    """Drucker-Prager cone through both uniaxial strengths: (m - 1) p + (m + 1) q over 2 f.
+
+    p is the sum of the normal stresses, q the von Mises stress and m = f / f_t.
+    """
+    x, y, xy = np.moveaxis(stress, -1, 0)
+    ratio = material.strength / material.strength_tension
+    mises = np.sqrt(x * x - x * y + y * y + 3 * xy * xy)
+    use = (ratio - 1) * (x + y) + (ratio + 1) * mises
+    return np.maximum(use / (2 * material.strength), 0.0)
+
+
+RATES = {
+    "von_mises": rate_stress,
+    "rankine": rate_principal_stress,
+    "drucker_prager": rate_pressure,
+}
 
 
 def compute_percentile(value: np.ndarray, area: np.ndarray, share: float = 0.99) -> float:

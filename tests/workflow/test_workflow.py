@@ -1,5 +1,6 @@
 """A tiny study by Snakemake: results, reruns, hand edits, kills, errors."""
 
+import csv
 import json
 import os
 import re
@@ -9,6 +10,7 @@ import openpyxl
 import pytest
 from study_runner import (
     DESIGNS,
+    SETTINGS,
     copy_code,
     hashes,
     make_study,
@@ -175,6 +177,21 @@ def test_an_edit_of_a_library_file_two_imports_deep_reruns_what_needs_it(code, c
     }
     assert {"analyse", "size", "refine"} <= rules
     assert not {"pattern", "fold", "mesh", "start", "resize"} & rules
+
+
+def test_designs_that_buckle_are_results_and_stop_nothing(code, tmp_path):
+    """A material of a thousandth of the stiffness buckles at every thickness that is allowed."""
+    soft = {
+        "material": {"youngs_modulus_gpa": 0.001},
+        "sizing": {**SETTINGS["sizing"], "iterations_max": 1, "largest_thickness_mm": 85},
+    }
+    folder = make_study(tmp_path / "soft", settings=soft)
+    done = run(code, folder, TARGET)
+    assert done.returncode == 0, done.stderr[-3000:]
+    with (folder / TARGET).open(newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    assert [row["state"] for row in rows] == ["unstable", "unstable"]
+    assert all("is below 1" in row["reason"] for row in rows)
 
 
 BAD_SETTINGS = [

@@ -45,11 +45,6 @@ def find_creases(
     return Creases(nodes[mountain], nodes[valley], nodes[flat], nodes[border])
 
 
-def find_polylines(cells: ShellMesh, pairs: np.ndarray) -> np.ndarray:
-    """Return the nodes (K, n+1) of the result mesh along facet edges (K, 2)."""
-    return cells.pair_nodes[_find_pairs(cells, pairs)]
-
-
 def _find_pairs(cells: ShellMesh, pairs: np.ndarray) -> np.ndarray:
     width = int(cells.node_pairs.max()) + 1
     known = cells.node_pairs[:, 0] * width + cells.node_pairs[:, 1]

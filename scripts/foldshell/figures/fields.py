@@ -3,15 +3,11 @@
 import numpy as np
 
 from foldshell.figures.state import DesignState
-from foldshell.shell.element import (
-    ElementGeometry,
-    element_geometry,
-    membrane_strain_operator,
-)
+from foldshell.shell.element import ElementGeometry
 from foldshell.shell.mesh import ShellMesh
 from foldshell.shell.reference import orthonormal_basis
-from foldshell.shell.stiffness import plane_stress
-from foldshell.shell.stress import cell_points
+from foldshell.shell.stiffness import build_operators
+from foldshell.shell.stress import cell_points, membrane_forces
 
 
 def cell_thickness(state: DesignState) -> np.ndarray:
@@ -47,20 +43,14 @@ def choose_strength(state: DesignState) -> str:
 def membrane_force_coefficients(
     state: DesignState, combination: str, youngs_modulus: float, poissons_ratio: float
 ) -> tuple[np.ndarray, ElementGeometry]:
-    """N = t E D eps(u): coefficients (E, 3, m) kN/m as in `stress.membrane_forces`, and frames.
-
-    For one combination, without the stiffness matrices that the analysis needs.
-    """
+    """Return coefficients (E, 3, m) kN/m of one combination, and the elements' frames."""
     mesh = state.mesh
-    geometry = element_geometry(mesh)
+    operators = build_operators(mesh, poissons_ratio)
     column = state.combinations.index(combination)
-    moved = state.final["displacement"][: 3 * len(mesh.nodes), column].reshape(-1, 3)
-    local = np.matmul(moved[mesh.elements], geometry.frame[:, :2].transpose(0, 2, 1))
-    operator = membrane_strain_operator(mesh, geometry)
-    strain = np.einsum("ecmna,ena->ecm", operator, local)
-    stiffness = youngs_modulus * state.final["thickness"][mesh.panel]
-    force = np.matmul(plane_stress(poissons_ratio), strain) * stiffness[:, None, None]
-    return force, geometry
+    displacement = state.final["displacement"][:, column : column + 1]
+    thickness = state.final["thickness"][mesh.panel]
+    force = membrane_forces(operators, displacement, thickness, youngs_modulus)
+    return force[..., 0], operators.geometry
 
 
 def membrane_force_cells(

@@ -15,8 +15,6 @@ from foldshell.shell.element import ElementGeometry
 from foldshell.shell.mesh import ShellMesh
 from foldshell.shell.reference import EDGES, lattice_points, orthonormal_basis
 
-OPPOSITE = np.array([2, 0, 1])
-"""Corner opposite to each edge."""
 TURN_MIN = 0.35
 """Least cosine between a line's direction and the principal direction beyond an edge."""
 

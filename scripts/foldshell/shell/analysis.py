@@ -202,9 +202,11 @@ class _Solution:
         return displacement
 
     def forces(self, displacement: np.ndarray) -> np.ndarray:
+        """Return membrane forces (E, 3, m, c) kN/m."""
         return membrane_forces(self._model.operators, displacement, self._thickness, self._modulus)
 
     def buckling(self, linear_cases, factors, start) -> BucklingResult:
+        """Return the buckling factor and the mode of every combination."""
         # as few geometric stiffnesses as the combinations are independent
         mixing, weights, independent = np.linalg.svd(factors, full_matrices=False)
         rank = int((weights > 1e-12 * weights[0]).sum())
@@ -236,6 +238,7 @@ class _Solution:
     def second_order(
         self, linear: np.ndarray, options: AnalysisOptions, initial: np.ndarray | None
     ) -> SecondOrderResult:
+        """Return second-order displacements, from an initial shape where there is one."""
         dofs, operators = self._dofs, self._model.operators
 
         def correction(displacement: np.ndarray, _columns: np.ndarray) -> np.ndarray:

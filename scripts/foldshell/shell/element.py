@@ -55,17 +55,6 @@ def element_geometry(mesh: ShellMesh) -> ElementGeometry:
     return ElementGeometry(frame, twice_area / 2, np.linalg.inv(jacobian), edge_length, edge_normal)
 
 
-def membrane_strain_operator(mesh: ShellMesh, geometry: ElementGeometry) -> np.ndarray:
-    """Return B (E, 3, m, n, 2) with eps = B u: xx, yy, xy coefficients from local in-plane u."""
-    slope = _slopes(mesh.order, geometry)
-    operator = np.zeros((len(slope), 3, *slope.shape[2:], 2))
-    operator[:, 0, :, :, 0] = slope[:, 0]
-    operator[:, 1, :, :, 1] = slope[:, 1]
-    operator[:, 2, :, :, 0] = slope[:, 1]
-    operator[:, 2, :, :, 1] = slope[:, 0]
-    return operator
-
-
 def slope_jump_operator(
     mesh: ShellMesh, geometry: ElementGeometry
 ) -> tuple[np.ndarray, np.ndarray]:
@@ -117,12 +106,6 @@ def curvature_operator(mesh: ShellMesh, geometry: ElementGeometry) -> tuple[np.n
         "efc,fmj,efj->ecmfj", weight, table.edge_rotation, edge_parity(mesh), optimize=True
     )
     return from_deflection, rotation.reshape(*shape, 3 * mesh.order)
-
-
-def _slopes(order: int, geometry: ElementGeometry) -> np.ndarray:
-    """Return d/dx and d/dy of the Lagrange functions as coefficients, (E, 2, m, n)."""
-    table = reference_triangle(order)
-    return np.einsum("ekx,kmn->exmn", geometry.inverse, table.gradient)
 
 
 def _second_derivative_transform(inverse: np.ndarray) -> np.ndarray:

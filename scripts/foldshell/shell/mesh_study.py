@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from foldshell.shell.analysis import AnalysisOptions, analyse_shell, build_model
+from foldshell.shell.analysis import analyse_shell, build_model
 from foldshell.shell.material import Material
 from foldshell.shell.mesh_files import mesh_folded_sheet, mesh_from_arrays
 from foldshell.shell.results import (
@@ -54,7 +54,6 @@ def study_mesh(
     material: Material,
     loads: Any,
     combinations: Mapping[str, Mapping[str, float]],
-    solver: str = "cholmod",
 ) -> dict[str, Any]:
     """Return {quantity: [on the mesh in use, on the reference mesh]} by combination.
 
@@ -67,7 +66,7 @@ def study_mesh(
     panel_thickness : (P,) m
     subdivisions : of the mesh in use
     """
-    state = (folded, support, panel_thickness, material, loads, combinations, solver)
+    state = (folded, support, panel_thickness, material, loads, combinations)
     in_use = {"subdivisions": subdivisions}
     meshes = [_analyse(mesh, *state) for mesh in (in_use, REFERENCE)]
     local = _analyse(in_use | {"order": BUCKLING_ORDER}, *state)
@@ -112,14 +111,13 @@ def _relative(value: float, limit: float) -> float:
     return abs(value - limit) / abs(limit) if limit else 0.0
 
 
-def _analyse(mesh, folded, support, panel_thickness, material, loads, combinations, solver):
+def _analyse(mesh, folded, support, panel_thickness, material, loads, combinations):
     """Analyse one mesh; return {combination: {quantity: value, second_order: {...}}}."""
     arrays = mesh_folded_sheet(dict(folded), support, **mesh)
     mesh = mesh_from_arrays(arrays)
     model = build_model(mesh, arrays["supported_nodes"], material.poissons_ratio)
     thickness = panel_thickness[mesh.panel]
-    options = AnalysisOptions(second_order=True, solver=solver)
-    result = analyse_shell(model, thickness, material, loads, combinations, options)
+    result = analyse_shell(model, thickness, material, loads, combinations)
     first = replace(result, displacement=result.linear, second_order=None)
     values = _measure(model, first, thickness, material)
     for column, name in enumerate(result.names):

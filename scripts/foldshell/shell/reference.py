@@ -26,8 +26,8 @@ class ReferenceTriangle:
     degree p - 1 at most. `edge_gradient` (3, 2, m, n) and `edge_rotation` (3, m, p) are the
     integrals over an edge of unit length of an orthonormal function times a derivative, or
     times a Legendre polynomial. `edge_slope` (3, 2, p, n) holds the derivatives on an edge as
-    coefficients of Legendre polynomials scaled to mean square one. `load` (n,) and `mass`
-    (n, n) are means over the triangle.
+    coefficients of Legendre polynomials scaled to mean square one. `load` (n,) are means over the
+    triangle.
     """
 
     order: int
@@ -38,7 +38,6 @@ class ReferenceTriangle:
     edge_rotation: np.ndarray
     edge_slope: np.ndarray
     load: np.ndarray
-    mass: np.ndarray
 
 
 @lru_cache(maxsize=8)
@@ -72,7 +71,6 @@ def reference_triangle(order: int) -> ReferenceTriangle:
         edge_rotation=np.array(edge_rotation),
         edge_slope=np.array(edge_slope),
         load=weights @ values,
-        mass=np.einsum("q,qa,qb->ab", weights, values, values),
     )
 
 

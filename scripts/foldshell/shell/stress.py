@@ -136,11 +136,6 @@ def evaluate(operators: ShellOperators, coefficients: np.ndarray, points: np.nda
     return np.einsum("qm,ecmk->eqkc", psi, coefficients, optimize=True)
 
 
-def cell_values(operators: ShellOperators, coefficients: np.ndarray) -> np.ndarray:
-    """Evaluate (E, 3, m, c) at the centroids of the result cells: (E, cells^2, c, 3)."""
-    return evaluate(operators, coefficients, cell_points(operators.mesh.cells))
-
-
 def surface_stresses(force: np.ndarray, moment: np.ndarray, thickness: np.ndarray) -> np.ndarray:
     """sigma = N/t - 12 M z / t^3 at the top, middle and bottom: (3, E, cells^2, c, 3) kPa."""
     t = thickness[:, None, None, None]

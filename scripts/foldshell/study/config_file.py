@@ -7,6 +7,7 @@ from typing import Any
 import yaml
 
 from foldshell.study.errors import InputError
+from foldshell.study.files import read_small_file
 
 LARGEST_FILE = 1_000_000
 _DEEPEST = 20
@@ -64,15 +65,7 @@ def read_config(path: str | Path) -> dict[str, Any]:
 
 def read_text(path: Path) -> str:
     """Read a small UTF-8 text file, with or without a byte order mark."""
-    try:
-        with path.open("rb") as stream:
-            data = stream.read(LARGEST_FILE + 1)
-    except FileNotFoundError:
-        raise InputError(f"{path}: no such file") from None
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
-    if len(data) > LARGEST_FILE:
-        raise InputError(f"{path}: larger than 1 MB: a text file of settings is allowed")
+    data = read_small_file(path, LARGEST_FILE, "a text file of settings")
     try:
         text = data.decode("utf-8-sig")
     except UnicodeDecodeError as error:

@@ -12,6 +12,8 @@ from typing import Any
 
 import numpy as np
 
+from foldshell.study.errors import InputError
+
 TEMPORARY_PREFIX = ".writing-"
 """Begins the name of a file that is not whole yet."""
 
@@ -75,6 +77,23 @@ def read_arrays(path: str | Path) -> dict[str, np.ndarray]:
     """Read every array of an .npz file."""
     with np.load(path, allow_pickle=False) as data:
         return {name: data[name] for name in data.files}
+
+
+def read_small_file(path: str | Path, largest: int, allowed: str) -> bytes:
+    """Read a file of at most `largest` bytes that a person may have put there.
+
+    Raises `InputError` that says what is wrong and, for a larger one, what is `allowed`.
+    """
+    try:
+        with Path(path).open("rb") as stream:
+            data = stream.read(largest + 1)
+    except FileNotFoundError:
+        raise InputError(f"{path}: no such file") from None
+    except OSError as error:
+        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
+    if len(data) > largest:
+        raise InputError(f"{path}: larger than {largest / 1e6:.0f} MB: {allowed} is allowed")
+    return data
 
 
 def hash_file(path: str | Path) -> str:

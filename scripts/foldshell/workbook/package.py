@@ -13,6 +13,7 @@ from xml.etree import ElementTree
 from zlib import error as ZlibError
 
 from foldshell.study.errors import InputError
+from foldshell.study.files import read_small_file
 
 LARGEST_FILE = 10_000_000
 LARGEST_PART = 6_000_000
@@ -100,7 +101,7 @@ def open_package(path: str | Path) -> Package:
     cut off, a zip bomb, with doubled entries, macros or links to outside data.
     """
     path = Path(path)
-    data = _read_bytes(path)
+    data = read_small_file(path, LARGEST_FILE, "a workbook of thicknesses")
     _refuse_other_kinds(path, data)
     _check_count(path, data.count(_DIRECTORY_ENTRY))
     try:
@@ -115,19 +116,6 @@ def open_package(path: str | Path) -> Package:
         kind = "an OpenDocument file" if ods else "a zip file but not a workbook"
         raise InputError(f"{path}: {kind}: {_SAVE_AS}")
     return Package(path, archive)
-
-
-def _read_bytes(path: Path) -> bytes:
-    try:
-        with path.open("rb") as stream:
-            data = stream.read(LARGEST_FILE + 1)
-    except FileNotFoundError:
-        raise InputError(f"{path}: no such file") from None
-    except OSError as error:
-        raise InputError(f"{path}: cannot be read: {error.strerror}") from None
-    if len(data) > LARGEST_FILE:
-        raise InputError(f"{path}: larger than 10 MB, which no workbook of thicknesses is")
-    return data
 
 
 def _refuse_other_kinds(path: Path, data: bytes) -> None:

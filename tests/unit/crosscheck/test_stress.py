@@ -7,6 +7,7 @@ from crosscheck.model import Material
 from crosscheck.stress import (
     compute_panel_means,
     compute_percentile,
+    rate_pressure,
     rate_principal_stress,
     rate_stress,
 )
@@ -24,6 +25,13 @@ def test_rankine():
     """Tension counts against a tenth of the compressive strength; pure shear is both."""
     stress = np.array([[1670.0, 0, 0], [-16700.0, -100.0, 0], [0, 0, 835.0]])
     np.testing.assert_allclose(rate_principal_stress(stress, CONCRETE), [1, 1, 0.5])
+
+
+def test_drucker_prager_passes_through_both_uniaxial_strengths():
+    """Pure shear: (m + 1) sqrt(3) t / 2 f with m = 10; biaxial compression lies in the cone."""
+    stress = np.array([[1670.0, 0, 0], [-16700.0, 0, 0], [0, 0, 1000.0], [-900.0, -900.0, 0]])
+    shear = 11 * np.sqrt(3) * 1000 / (2 * 16700)
+    np.testing.assert_allclose(rate_pressure(stress, CONCRETE), [1, 1, shear, 0])
 
 
 def test_percentile_counts_area():

@@ -28,7 +28,6 @@ from foldshell.shell.results import (
 from foldshell.shell.stiffness import build_operators
 from foldshell.shell.stress import (
     cell_points,
-    cell_values,
     internal_forces,
     membrane_forces,
     sample_points,
@@ -116,14 +115,6 @@ def test_sample_points_tile_their_cells(cells):
     fine = cell_points(12)
     found = points.reshape(-1, 2)
     assert found[np.lexsort(found.round(9).T)] == pytest.approx(fine[np.lexsort(fine.round(9).T)])
-
-
-def test_cell_values_of_a_constant():
-    mesh = folded_strip(3, 4)
-    operators = build_operators(mesh, 0.2)
-    coefficients = np.zeros((len(mesh.elements), 3, 15, 1))
-    coefficients[:, :, 0] = 2.5
-    assert cell_values(operators, coefficients) == pytest.approx(2.5)
 
 
 def test_criteria_in_uniaxial_and_shear_states():
