@@ -80,7 +80,7 @@ def _attempt(
     sheet: Sheet, target: Target, settings: FoldSettings, weights: ExactWeights, rigid: bool
 ) -> Attempt:
     soft = fold_softly(sheet, target, settings)
-    solution = solve_exactly(sheet, target, settings.attract, soft.vertices, settings.exact, rigid)
+    solution = solve_exactly(sheet, target, settings.attract, soft.vertices, weights, rigid)
     iterations = soft.iterations + solution.iterations
     return Attempt(sheet, solution, iterations, tuple(find_faults(solution, sheet)))
 
