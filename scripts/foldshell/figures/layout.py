@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
@@ -84,11 +85,13 @@ def save_png(path: str | Path, picture: Image.Image) -> None:
 
 @lru_cache
 def load_font(size: int, bold: bool = False) -> ImageFont.FreeTypeFont:
-    """Return DejaVu Sans, which matplotlib brings along, at a size in pixels."""
-    from matplotlib import get_data_path
+    """Return DejaVu Sans, which matplotlib brings along, at a size in pixels.
 
+    Matplotlib is found without importing it, which would take as long as drawing two pictures.
+    """
     name = "DejaVuSans-Bold.ttf" if bold else "DejaVuSans.ttf"
-    return ImageFont.truetype(str(Path(get_data_path(), "fonts", "ttf", name)), size)
+    package = Path(find_spec("matplotlib").origin).parent
+    return ImageFont.truetype(str(package / "mpl-data" / "fonts" / "ttf" / name), size)
 
 
 def fit_font(text: str, size: float, width: float, bold: bool = False) -> ImageFont.FreeTypeFont:

@@ -5,7 +5,7 @@ import pytest
 
 from foldshell.figures.colours import (
     ABOVE,
-    CUTS,
+    KNOTS,
     MISSING,
     ColourScale,
     colour_table,
@@ -25,12 +25,22 @@ def lightness(colour):
     return 116 * np.cbrt(y) - 16
 
 
-@pytest.mark.parametrize("name", sorted(CUTS))
+@pytest.mark.parametrize("name", sorted(KNOTS))
 def test_maps_rise_or_fall_in_grey(name):
     """A map read in grey keeps the order of values: its lightness is monotone (8 bit rounding)."""
     steps = np.diff(lightness(colour_table(name)))
     assert (steps > -0.6).all() or (steps < 0.6).all()
     assert abs(lightness(colour_table(name))[[0, -1]] @ [1, -1]) > 50
+
+
+@pytest.mark.parametrize(
+    ("name", "ends"), [("viridis", (0.12, 1)), ("cividis", (0.1, 1)), ("YlGnBu", (0.04, 0.9))]
+)
+def test_maps_are_those_of_matplotlib(name, ends):
+    """Linear between 33 of matplotlib's colours: within 5 of 255 of all of them."""
+    colormaps = pytest.importorskip("matplotlib").colormaps
+    exact = 255 * colormaps[name](np.linspace(*ends, 256))[:, :3]
+    assert np.abs(colour_table(name) - exact).max() < 5.5
 
 
 def test_limit_shows_in_grey_and_colour():
