@@ -1,7 +1,9 @@
 """Rule mesh: the shell mesh of a folded sheet with its supports."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
+from foldshell.shell.edge_beams import make_edge_beam
 from foldshell.shell.mesh_files import mesh_folded_sheet, read_mesh, write_mesh, write_mesh_vtu
 from foldshell.study.errors import InputError, user_errors
 from foldshell.study.files import read_arrays
@@ -15,10 +17,15 @@ def main(
     design: str,
     support: str,
     subdivisions: int,
+    edge_beam: Sequence[float] = (0.0, 0.0),
 ) -> None:
-    """Read folded.npz, write mesh.npz (for the analysis) and mesh.vtu (to look at)."""
+    """Read folded.npz, write mesh.npz (for the analysis) and mesh.vtu (to look at).
+
+    `edge_beam` holds the depth and the thickness of its strips, m.
+    """
+    folded, strips = read_arrays(folded_path), make_edge_beam(*edge_beam)
     try:
-        arrays = mesh_folded_sheet(read_arrays(folded_path), support, subdivisions)
+        arrays = mesh_folded_sheet(folded, support, subdivisions, edge_beam=strips)
     except ValueError as error:
         raise InputError(f"design {design}: mesh: {error}") from None
     write_mesh(mesh_path, arrays)

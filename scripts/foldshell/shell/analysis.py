@@ -1,7 +1,7 @@
 """The shell analysis of one thickness vector: what Karamba did in the paper's loop."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
@@ -40,12 +40,31 @@ class AnalysisOptions:
 
 @dataclass(frozen=True)
 class ShellModel:
-    """A geometry ready for any thickness: mesh, operators, pattern, supported nodes."""
+    """A geometry ready for any thickness: mesh, operators, pattern, supported nodes.
+
+    `fixed_thickness` (B,) m is that of the last B panels: not sized, they carry nothing but their
+    own weight (the strips of an edge beam).
+    """
 
     mesh: ShellMesh
     operators: ShellOperators
     pattern: LowerPattern
     supported_nodes: np.ndarray
+    fixed_thickness: np.ndarray = field(default_factory=lambda: np.empty(0))
+
+    @property
+    def sized_panels(self) -> int:
+        """Number of panels that are sized; they stand first."""
+        return int(self.mesh.panel.max()) + 1 - len(self.fixed_thickness)
+
+    @property
+    def bare(self) -> np.ndarray:
+        """Whether each element carries nothing but its own weight, (E,) bool."""
+        return self.mesh.panel >= self.sized_panels
+
+    def spread(self, thickness: np.ndarray) -> np.ndarray:
+        """Return the thickness of each element (E,) from that of the sized panels (P,), m."""
+        return np.concatenate([thickness, self.fixed_thickness])[self.mesh.panel]
 
 
 @dataclass(frozen=True)
@@ -83,6 +102,7 @@ def build_model(
     supported_nodes: np.ndarray,
     poissons_ratio: float,
     fixed: np.ndarray | None = None,
+    fixed_thickness: np.ndarray | None = None,
 ) -> ShellModel:
     """Build what depends on the geometry only.
 
@@ -90,6 +110,7 @@ def build_model(
     ----------
     supported_nodes : nodes held in all three directions
     fixed : further freedoms that are held (`translation_dofs`, `rotation_dofs`)
+    fixed_thickness : (B,) m of the last B panels, which are not sized; see `ShellModel`
 
     Raises
     ------
@@ -103,7 +124,9 @@ def build_model(
     elif len(supported) < 3 or _on_one_line(mesh.nodes[supported]):
         raise ValueError("the supports lie on one line and leave a rotation about it free")
     operators = build_operators(mesh, poissons_ratio)
-    return ShellModel(mesh, operators, find_pattern(operators, held), supported)
+    pattern = find_pattern(operators, held)
+    own = np.empty(0) if fixed_thickness is None else np.asarray(fixed_thickness, dtype=float)
+    return ShellModel(mesh, operators, pattern, supported, own)
 
 
 def _on_one_line(points: np.ndarray) -> bool:
@@ -130,7 +153,7 @@ def analyse_shell(
     options = options or AnalysisOptions()
     names = tuple(combinations)
     surface = surface_loads(
-        model.operators.geometry.frame[:, 2], thickness, material.unit_weight, loads
+        model.operators.geometry.frame[:, 2], thickness, material.unit_weight, loads, model.bare
     )
     cases = nodal_forces(model.operators, surface)
     factors = combination_matrix(combinations)

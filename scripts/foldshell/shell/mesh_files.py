@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from foldshell.shell.edge_beams import EdgeBeam, facet_edges, free_edges, hang_strips
 from foldshell.shell.mesh import ShellMesh, build_mesh, edge_polyline_nodes
 from foldshell.shell.reference import lagrange_basis, lattice_points
 from foldshell.shell.supports import supported_pairs
@@ -17,25 +18,34 @@ def mesh_folded_sheet(
     subdivisions: int,
     order: int | None = None,
     grading: float | None = None,
+    edge_beam: EdgeBeam | None = None,
 ) -> dict[str, np.ndarray]:
     """Return the arrays of `mesh.npz`: the mesh, the sheet it covers, and its supports.
 
     See `build_mesh` for subdivisions, order and grading.
 
     Besides the fields of `ShellMesh` these are vertices (V, 3) m, facets (F, 3), facet_panel (F,),
-    support_pairs (K, 2) as vertices and supported_nodes (S,).
+    support_pairs (K, 2) as vertices and supported_nodes (S,). With an edge beam the strip's
+    vertices, facets and panels stand after those of the sheet, and fixed_thickness (B,) m holds
+    the thickness of the last B panels, the strip's, which are not sized.
     """
-    facets = folded["facets"]
+    vertices, facets = folded["vertices"], folded["facets"]
+    pairs = supported_pairs(facet_edges(facets), folded["zigzag"], folded["strip"], support)
+    fixed = {}
+    if edge_beam is not None:
+        edges = free_edges(facets, pairs)
+        vertices, facets = hang_strips(vertices, facets, edges, edge_beam.depth)
+        fixed["fixed_thickness"] = np.full(len(edges), edge_beam.thickness)
     facet_panel = np.arange(len(facets)) // 2
-    mesh = build_mesh(folded["vertices"], facets, facet_panel, subdivisions, order, grading)
-    pairs = supported_pairs(mesh.node_pairs, folded["zigzag"], folded["strip"], support)
+    mesh = build_mesh(vertices, facets, facet_panel, subdivisions, order, grading)
     return {
         **{field.name: np.asarray(getattr(mesh, field.name)) for field in fields(mesh)},
-        "vertices": folded["vertices"],
+        "vertices": vertices,
         "facets": facets,
         "facet_panel": facet_panel,
         "support_pairs": pairs,
         "supported_nodes": edge_polyline_nodes(mesh, pairs),
+        **fixed,
     }
 
 

@@ -81,10 +81,11 @@ def panel_utilization(model: ShellModel, cell: np.ndarray, measure: str) -> np.n
 def area_percentile(model: ShellModel, point: np.ndarray, percent: float = 99.0) -> float:
     """Return the value that a share of the mesh area does not exceed.
 
-    `point` (E, ...) holds equally weighted values of each element.
+    `point` (E, ...) holds equally weighted values of each element, or of the first ones only.
     """
     value = point.ravel()
-    weight = np.repeat(model.operators.geometry.area, value.size // len(point))
+    area = model.operators.geometry.area[: len(point)]
+    weight = np.repeat(area, value.size // len(point))
     order = np.argsort(value)
     share = np.cumsum(weight[order])
     return float(value[order][np.searchsorted(share, percent / 100 * share[-1])])

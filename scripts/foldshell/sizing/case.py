@@ -49,7 +49,12 @@ def open_case(mesh_path: str | Path, settings: Mapping[str, Any]) -> AnalysisCas
     mesh, arrays = read_mesh(mesh_path)
     sizing, material = settings["sizing"], Material(**settings["material"])
     try:
-        model = build_model(mesh, arrays["supported_nodes"], material.poissons_ratio)
+        model = build_model(
+            mesh,
+            arrays["supported_nodes"],
+            material.poissons_ratio,
+            fixed_thickness=arrays.get("fixed_thickness"),
+        )
     except ValueError as error:
         raise InputError(f"{mesh_path}: {error}") from None
     plan = LoadPlan(Loads(**settings["loads"]), **settings["combinations"])

@@ -28,7 +28,8 @@ class StopRule:
 @dataclass(frozen=True)
 class IterationState:
     """What a verdict is made of. `utilization` (P,) by the chosen measure; `previous_*` are None
-    in iteration 0; `quiet` counts iterations in a row with a small change of volume."""
+    in iteration 0; `quiet` counts iterations in a row with a small change of volume; `edge_beam`
+    is the largest utilization of the strips, which no rule sizes, by the same measure."""
 
     iteration: int
     state: str
@@ -41,6 +42,7 @@ class IterationState:
     previous_volume: float | None
     previous_thickness: np.ndarray | None
     previous_quiet: int
+    edge_beam: float | None = None
 
 
 @dataclass(frozen=True)
@@ -85,6 +87,7 @@ def evaluate_criteria(now: IterationState, rule: StopRule) -> dict[str, dict[str
     limit = now.span / rule.displacement_limit_span_over
     change = None if now.previous_volume is None else abs(now.volume - now.previous_volume)
     relative = None if change is None else change / now.previous_volume
+    beam = {"edge_beam_utilization": _below(now.edge_beam, rule.utilization_max, closed=True)}
     return {
         "utilization_max": _below(highest, rule.utilization_max, closed=True),
         "utilization_min": {
@@ -95,6 +98,7 @@ def evaluate_criteria(now: IterationState, rule: StopRule) -> dict[str, dict[str
         "displacement_vertical_m": _below(now.displacement, limit),
         "volume_change_m3": _below(change, rule.volume_change_max),
         "volume_change_relative": _below(relative, rule.volume_change_max_relative),
+        **(beam if now.edge_beam is not None else {}),
     }
 
 

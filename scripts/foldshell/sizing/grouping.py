@@ -12,7 +12,7 @@ from foldshell.sizing.classes import ThicknessClasses, group_thicknesses
 from foldshell.sizing.iteration import IterationTask
 from foldshell.workbook.panels import round_thickness
 
-CRITERIA = ("utilization_max", "displacement_vertical_m")
+CRITERIA = ("utilization_max", "displacement_vertical_m", "edge_beam_utilization")
 """What a grouped design has to keep; changes of volume mean nothing to it."""
 
 ROUNDS_MAX = 6
@@ -42,7 +42,8 @@ def analyse_classes(
     last, arrays : contents of analysis.json and analysis.npz of the last iteration
     count : classes allowed
     """
-    area, limit = panel_area(case.model), case.rule.utilization_max
+    area = panel_area(case.model)[: case.model.sized_panels]
+    limit = case.rule.utilization_max
     needed = arrays["thickness"]
     before = {"buckling_modes": arrays["buckling_modes"]} if "buckling_modes" in arrays else {}
     for raised in range(ROUNDS_MAX + 1):
@@ -74,7 +75,7 @@ def _judge(found: Mapping[str, Any]) -> dict[str, Any]:
     """Return verdict (holds, fails or unstable), reason and criteria."""
     if found["state"] != "ok":
         return {"verdict": found["state"], "reason": found["reason"], "criteria": {}}
-    criteria = {name: found["criteria"][name] for name in CRITERIA}
+    criteria = {name: item for name, item in found["criteria"].items() if name in CRITERIA}
     broken = [
         f"{name} {item['value']:.4g} beyond {item['limit']:.4g}"
         for name, item in criteria.items()

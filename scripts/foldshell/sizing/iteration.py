@@ -66,7 +66,7 @@ def run_iteration(
     goes on hold the linearised constraints.
     """
     began = time.perf_counter()
-    thickness = task.thickness[model.mesh.panel]
+    thickness = model.spread(task.thickness)
     modes = task.previous_arrays.get("buckling_modes")
     result = analyse_shell(
         model, thickness, material, plan.loads, plan.combinations, options, modes
@@ -74,11 +74,8 @@ def run_iteration(
     report, arrays = _describe(model, task, result)
     usable = result.state in ("ok", "not_converged")
     utilization = _utilization(model, result, thickness, material, plan) if usable else None
-    panels = {
-        name: panel_utilization(model, utilization.cell, name) if usable else None
-        for name in ("panel_mean", "element_max")
-    }
-    verdict = _judge(task, result, report, panels[rule.measure], rule, model, plan)
+    panels, strips = _measure_panels(model, utilization)
+    verdict = _judge(task, result, report, (panels, strips), rule, model, plan)
     report |= {
         "verdict": verdict.verdict,
         "reason": verdict.reason,
@@ -90,6 +87,9 @@ def run_iteration(
         report["panels_at_bound"] = _count_at_bound(task.thickness, rule)
         report["panels_above_one"] = int((panels[rule.measure] > rule.utilization_max).sum())
         arrays |= {f"utilization_{name}": values for name, values in panels.items()}
+        if len(model.fixed_thickness):
+            report |= _describe_edge_beam(model, utilization, strips)
+            arrays |= {f"edge_beam_utilization_{name}": strips[name] for name in strips}
     going_on = verdict.verdict == "continue"
     if factor_min is not None and result.state == "ok" and going_on:
         factors = combination_matrix(plan.combinations)
@@ -107,11 +107,12 @@ def _describe(
 ) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
     """Return what every analysis says of itself, whatever its state."""
     area = panel_area(model)
+    sized, fixed = np.split(area, [model.sized_panels])
     report = {
         "iteration": task.iteration,
         "state": result.state,
-        "volume_m3": float(area @ task.thickness),
-        "area_m2": float(area.sum()),
+        "volume_m3": float(sized @ task.thickness) + float(fixed @ model.fixed_thickness),
+        "area_m2": float(sized.sum()),
         "buckling_factor": _factors(result),
         "second_order_iterations": result.second_order.iterations if result.second_order else 0,
         "second_order_residual": _largest_residual(result),
@@ -149,7 +150,31 @@ def _utilization(model, result, thickness, material, plan: LoadPlan) -> Utilizat
     return compute_utilization(model, result.displacement[:, columns], thickness, material)
 
 
-def _judge(task, result, report, utilization, rule, model, plan) -> Verdict:
+def _measure_panels(model: ShellModel, utilization: Utilization | None):
+    """Return {measure: (P,)} of the sized panels and {measure: (B,)} of the strips."""
+    panels: dict[str, np.ndarray | None] = {}
+    strips: dict[str, np.ndarray | None] = {}
+    for name in ("panel_mean", "element_max"):
+        panels[name] = strips[name] = None
+        if utilization is not None:
+            values = panel_utilization(model, utilization.cell, name)
+            panels[name], strips[name] = np.split(values, [model.sized_panels])
+    return panels, strips
+
+
+def _describe_edge_beam(model: ShellModel, utilization: Utilization, strips) -> dict[str, Any]:
+    """Return volume and utilization of the strips: largest cell, and largest panel mean."""
+    return {
+        "edge_beam_volume_m3": float(
+            panel_area(model)[model.sized_panels :] @ model.fixed_thickness
+        ),
+        "edge_beam_utilization_max": float(utilization.cell[model.bare].max()),
+        "edge_beam_utilization_panel_mean_max": float(strips["panel_mean"].max()),
+    }
+
+
+def _judge(task, result, report, measured, rule, model, plan) -> Verdict:
+    utilization, strips = (values[rule.measure] for values in measured)
     usable = utilization is not None
     deflection = result.displacement[:, len(plan.strength) :]
     down = largest_downward(model, deflection, list(plan.deflection))[0] if usable else np.nan
@@ -166,6 +191,7 @@ def _judge(task, result, report, utilization, rule, model, plan) -> Verdict:
             previous_volume=task.previous.get("volume_m3"),
             previous_thickness=task.previous_arrays.get("thickness"),
             previous_quiet=task.previous.get("quiet_iterations", 0),
+            edge_beam=float(strips.max()) if usable and len(strips) else None,
         ),
         rule,
     )
@@ -175,11 +201,12 @@ def _headline(model, result, thickness, material, plan, utilization, panels) -> 
     deflection = result.displacement[:, len(plan.strength) :]
     down, node, combination = largest_downward(model, deflection, list(plan.deflection))
     reactions = support_reactions(model, result, thickness, material)
-    area = model.operators.geometry.area
-    mean = float(area @ utilization.cell.mean(axis=1) / area.sum())
+    sheet = slice(0, int((~model.bare).sum()))
+    area, cell = model.operators.geometry.area[sheet], utilization.cell[sheet]
+    mean = float(area @ cell.mean(axis=1) / area.sum())
     return {
-        "utilization_max": float(utilization.cell.max()),
-        "utilization_p99": area_percentile(model, utilization.point),
+        "utilization_max": float(cell.max()),
+        "utilization_p99": area_percentile(model, utilization.point[sheet]),
         "utilization_mean": mean,
         "utilization_panel_mean_max": float(panels["panel_mean"].max()),
         "displacement_vertical_max_m": down,

@@ -55,7 +55,8 @@ def linearise_constraints(
         _buckling(adjoint, factor_min),
     ]
     value, gradient = (np.concatenate(items) for items in zip(*parts, strict=True))
-    return Constraints(value, gradient, panel_area(model))
+    sized = slice(0, model.sized_panels)
+    return Constraints(value, gradient[:, sized], panel_area(model)[sized])
 
 
 def _utilization(adjoint: AdjointModel, utilization: Utilization, strength: int, rule: StopRule):
