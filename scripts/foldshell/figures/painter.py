@@ -1,6 +1,6 @@
 """Scenes without OpenGL: triangles and lines painted from the farthest to the nearest.
 
-Stands in for PyVista on machines without a graphics library. Correct for meshes of small triangles
+Stands in for VTK on machines without a graphics library. Correct for meshes of small triangles
 that do not cut each other, which folded sheets are.
 """
 

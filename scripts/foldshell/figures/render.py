@@ -1,4 +1,7 @@
-"""PyVista without a screen: coloured surface, lines and supports to an image array."""
+"""VTK without a screen: coloured surface, lines and supports to an image array.
+
+PyVista is left out: it takes longer to import than all pictures of a design take to draw.
+"""
 
 import ctypes
 import os
@@ -6,12 +9,16 @@ import sys
 from collections.abc import Sequence
 
 import numpy as np
+from PIL import Image
 
 from foldshell.figures.camera import Camera
 from foldshell.figures.painter import paint_scenes
 from foldshell.figures.scene import AMBIENT, DIFFUSE, SUPPORT_COLOUR, Lines, Scene
 
 OPENGL_LIBRARIES = ("libEGL.so.1", "libOSMesa.so.8", "libOSMesa.so")
+OVERSAMPLING = 2
+"""Pixels drawn for one in the image, each way: half the time of multi-sampling in software."""
+CONE_SIDES = 12
 
 
 def render_scenes(
@@ -19,8 +26,8 @@ def render_scenes(
 ) -> list[np.ndarray]:
     """Return an image (height, width, 3) uint8 of each scene.
 
-    Drawn by PyVista in one window of that size, or painted where there is no OpenGL: VTK would
-    end the process with a segmentation fault.
+    Drawn by VTK in one window, or painted where there is no OpenGL: VTK would end the process with
+    a segmentation fault.
     """
     draw = draw_scenes if has_opengl() else paint_scenes
     return draw(scenes, cameras, size)
@@ -42,76 +49,117 @@ def has_opengl() -> bool:
 def draw_scenes(
     scenes: Sequence[Scene], cameras: Sequence[Camera], size: tuple[int, int]
 ) -> list[np.ndarray]:
-    """Return the images of the scenes as PyVista renders them off-screen."""
+    """Return the images of the scenes as VTK renders them off-screen."""
     if not os.environ.get("DISPLAY"):
         os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
-    import pyvista
+    import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 - makes the window's class known
+    from vtkmodules.vtkRenderingCore import vtkRenderWindow
 
-    plotter = pyvista.Plotter(off_screen=True, window_size=size, lighting="none")
-    plotter.set_background("white")
-    plotter.enable_anti_aliasing("msaa", multi_samples=8)
-    plotter.add_light(pyvista.Light(light_type="headlight", intensity=1.0))
+    window = vtkRenderWindow()
+    window.SetOffScreenRendering(1)
+    window.SetMultiSamples(0)
+    window.SetSize(OVERSAMPLING * size[0], OVERSAMPLING * size[1])
     try:
-        return [_render(plotter, s, c) for s, c in zip(scenes, cameras, strict=True)]
+        return [_render(window, s, c) for s, c in zip(scenes, cameras, strict=True)]
     finally:
-        plotter.close()
+        window.Finalize()
 
 
-def _render(plotter, scene: Scene, camera: Camera) -> np.ndarray:
-    plotter.suppress_rendering = True  # else each added mesh renders the scene once more
-    plotter.clear_actors()
-    _add_surface(plotter, scene)
+def _render(window, scene: Scene, camera: Camera) -> np.ndarray:
+    from vtkmodules.vtkRenderingCore import vtkRenderer
+
+    renderer = vtkRenderer()
+    renderer.SetBackground(1.0, 1.0, 1.0)
+    renderer.AddActor(_make_surface(scene))
     for lines in scene.lines:
-        _add_lines(plotter, lines, camera)
+        if len(lines.points):
+            renderer.AddActor(_make_lines(lines, camera))
     if scene.supports is not None and len(scene.supports):
-        _add_supports(plotter, scene.supports, scene.support_size)
-    plotter.camera.position = camera.eye
-    plotter.camera.focal_point = camera.focus
-    plotter.camera.up = (0, 0, 1)
-    plotter.camera.view_angle = np.degrees(camera.view_angle)
-    plotter.renderer.ResetCameraClippingRange()
-    plotter.suppress_rendering = False
-    plotter.render()
-    return np.asarray(plotter.screenshot(None, return_img=True))[..., :3]
+        renderer.AddActor(_make_supports(scene.supports, scene.support_size))
+    eye = renderer.GetActiveCamera()
+    eye.SetPosition(*camera.eye)
+    eye.SetFocalPoint(*camera.focus)
+    eye.SetViewUp(0.0, 0.0, 1.0)
+    eye.SetViewAngle(float(np.degrees(camera.view_angle)))
+    renderer.ResetCameraClippingRange()
+    window.AddRenderer(renderer)
+    window.Render()
+    image = _read_pixels(window)
+    window.RemoveRenderer(renderer)
+    return image
 
 
-def _add_surface(plotter, scene: Scene) -> None:
-    import pyvista
+def _read_pixels(window) -> np.ndarray:
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
 
-    surface = pyvista.PolyData.from_regular_faces(scene.points, scene.triangles)
-    place = surface.cell_data if len(scene.colours) == len(scene.triangles) else surface.point_data
-    place["colour"] = scene.colours
-    plotter.add_mesh(
-        surface, scalars="colour", rgb=True, ambient=AMBIENT, diffuse=DIFFUSE, specular=0.0,
-        smooth_shading=False, show_scalar_bar=False,
-    )  # fmt: skip
+    width, height = window.GetSize()
+    pixels = vtkUnsignedCharArray()
+    window.GetPixelData(0, 0, width - 1, height - 1, 0, pixels, 0)
+    rows = vtk_to_numpy(pixels).reshape(height, width, 3)[::-1]
+    return np.asarray(Image.fromarray(np.ascontiguousarray(rows)).reduce(OVERSAMPLING))
 
 
-def _add_lines(plotter, lines: Lines, camera: Camera) -> None:
-    import pyvista
+def _make_poly_data(points: np.ndarray, cells: np.ndarray, lines: bool = False):
+    """Return vtkPolyData of points (N, 3) and triangles (C, 3), or polylines (K, n)."""
+    from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
+    from vtkmodules.vtkCommonCore import vtkPoints
+    from vtkmodules.vtkCommonDataModel import vtkCellArray, vtkPolyData
 
+    places, faces, data = vtkPoints(), vtkCellArray(), vtkPolyData()
+    places.SetData(numpy_to_vtk(np.ascontiguousarray(points, dtype=np.float32), deep=1))
+    numbers = np.ascontiguousarray(cells.ravel(), dtype=np.int64)
+    faces.SetData(cells.shape[1], numpy_to_vtkIdTypeArray(numbers, deep=1))
+    data.SetPoints(places)
+    (data.SetLines if lines else data.SetPolys)(faces)
+    return data
+
+
+def _make_actor(data, colour: tuple[int, int, int] = (255, 255, 255)):
+    """Return an actor whose facets stay flat, and its properties."""
+    from vtkmodules.vtkRenderingCore import vtkActor, vtkPolyDataMapper
+
+    mapper, actor = vtkPolyDataMapper(), vtkActor()
+    mapper.SetInputData(data)
+    actor.SetMapper(mapper)
+    look = actor.GetProperty()
+    look.SetColor(*(c / 255 for c in colour))
+    look.SetInterpolationToFlat()
+    look.SetSpecular(0.0)
+    return actor, look
+
+
+def _make_surface(scene: Scene):
+    from vtkmodules.util.numpy_support import numpy_to_vtk
+
+    data = _make_poly_data(scene.points, scene.triangles)
+    place = data.GetCellData if len(scene.colours) == len(scene.triangles) else data.GetPointData
+    place().SetScalars(numpy_to_vtk(np.ascontiguousarray(scene.colours), deep=1))
+    actor, look = _make_actor(data)
+    look.SetAmbient(AMBIENT)
+    look.SetDiffuse(DIFFUSE)
+    return actor
+
+
+def _make_lines(lines: Lines, camera: Camera):
     count, length = lines.points.shape[:2]
-    if not count:
-        return
-    points = lines.points.reshape(-1, 3)
-    distance = np.linalg.norm(camera.eye - camera.focus)
-    points = camera.towards(points, lines.lift * distance)
+    distance = float(np.linalg.norm(camera.eye - camera.focus))
+    points = camera.towards(lines.points.reshape(-1, 3), lines.lift * distance)
     numbers = np.arange(count * length).reshape(count, length)
-    cells = np.column_stack([np.full(count, length), numbers])
-    plotter.add_mesh(
-        pyvista.PolyData(points, lines=cells.ravel()),
-        color=tuple(c / 255 for c in lines.colour),
-        line_width=lines.width,
-        lighting=False,
-    )
+    actor, look = _make_actor(_make_poly_data(points, numbers, lines=True), lines.colour)
+    look.SetLineWidth(OVERSAMPLING * lines.width)
+    look.LightingOff()
+    return actor
 
 
-def _add_supports(plotter, points: np.ndarray, size: float) -> None:
-    import pyvista
-
-    cone = pyvista.Cone(
-        center=(0, 0, -size / 2), direction=(0, 0, 1), height=size, radius=0.45 * size,
-        resolution=12,
-    )  # fmt: skip
-    marks = pyvista.PolyData(points).glyph(geom=cone, scale=False, orient=False)
-    plotter.add_mesh(marks, color=tuple(c / 255 for c in SUPPORT_COLOUR), ambient=0.5, diffuse=0.5)
+def _make_supports(points: np.ndarray, size: float):
+    """Return cones whose tips are the points (S, 3)."""
+    angle = 2 * np.pi * np.arange(CONE_SIDES) / CONE_SIDES
+    rim = size * np.stack([0.45 * np.cos(angle), 0.45 * np.sin(angle), 0 * angle - 1], axis=1)
+    corners = np.stack([0 * rim, rim, np.roll(rim, -1, axis=0)], axis=1)
+    places = (points[:, None, None] + corners).reshape(-1, 3)
+    triangles = np.arange(len(places)).reshape(-1, 3)
+    actor, look = _make_actor(_make_poly_data(places, triangles), SUPPORT_COLOUR)
+    look.SetAmbient(0.5)
+    look.SetDiffuse(0.5)
+    return actor

@@ -24,7 +24,7 @@ def scene_of(folder, draft=draft_thickness):
 
 
 @pytest.mark.skipif(not render.has_opengl(), reason="no OpenGL to compare with")
-def test_painter_agrees_with_pyvista(tmp_path):
+def test_painter_agrees_with_vtk(tmp_path):
     """Nine of ten pixels of the sheet are alike within 24 of 255; what differs is lines' edges.
 
     A scene without lines and supports leaves one in fifty: pixels on silhouettes.
