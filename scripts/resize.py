@@ -4,13 +4,14 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from foldshell.sizing.constraints import read_constraints
-from foldshell.sizing.step import make_step_rule, propose_thickness, summarise_step
+from foldshell.sizing.step import summarise_step, take_step
 from foldshell.study.errors import user_errors
 from foldshell.study.files import read_arrays, read_json, write_arrays
 from foldshell.workbook.edits import record_written
-from foldshell.workbook.panels import ThicknessTable, make_panel_grid, round_thickness
+from foldshell.workbook.panels import ThicknessTable, make_panel_grid
 from foldshell.workbook.write_thickness import write_thickness
+
+LIMITS = ("least_thickness", "largest_thickness", "utilization_max")
 
 
 def main(
@@ -29,19 +30,16 @@ def main(
 ) -> None:
     """Write thickness.xlsx, memory.npz and written.json of the iteration after `json_path`."""
     sizing = settings["sizing"]
-    rule = make_step_rule(sizing)
     analysis, arrays = read_json(json_path), read_arrays(arrays_path)
     thickness, used = arrays["thickness"], arrays.get(f"utilization_{sizing['measure']}")
     memory = read_arrays(previous_memory) if previous_memory else {}
-    constraints = read_constraints(arrays)
-    following = propose_thickness(analysis, thickness, used, memory, rule, constraints)
-    new = round_thickness(following.thickness)
+    following = take_step(analysis, arrays, memory, sizing)
+    new = following.thickness
     table = ThicknessTable(
         make_panel_grid(zigzag, strip), new, thickness, used, new / thickness - 1, following.note
     )
     summary = summarise_step(design, analysis, sizing) | {"settings_hash": settings_hash}
-    bounds = (rule.limits.least_thickness, rule.limits.largest_thickness)
-    write_thickness(workbook_path, table, summary, *bounds, rule.limits.utilization_max)
+    write_thickness(workbook_path, table, summary, *(sizing[name] for name in LIMITS))
     write_arrays(memory_path, following.memory)
     record_written(workbook_path, record_path)
 

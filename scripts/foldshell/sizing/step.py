@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from foldshell.sizing.constraints import Constraints
+from foldshell.sizing.constraints import Constraints, read_constraints
 from foldshell.sizing.optimality import optimality
 from foldshell.sizing.rules import (
     SizingLimits,
@@ -16,6 +16,7 @@ from foldshell.sizing.rules import (
     start_state,
     thicken_all,
 )
+from foldshell.workbook.panels import round_thickness
 
 RULES: dict[str, Callable[[SizingState, SizingLimits], SizingState]] = {
     "dead_band": dead_band,
@@ -72,6 +73,29 @@ def summarise_step(
         **{f"{name}_m": sizing[name] for name in ("least_thickness", "largest_thickness")},
         **{name: sizing[name] for name in ("utilization_min", "utilization_max")},
     }
+
+
+def take_step(
+    analysis: Mapping[str, Any],
+    arrays: Mapping[str, np.ndarray],
+    memory: Mapping[str, np.ndarray],
+    sizing: Mapping[str, Any],
+) -> NextStep:
+    """Return the thickness (P,) m that follows an analysis, rounded as workbooks hold it.
+
+    `analysis` and `arrays` are the contents of analysis.json and analysis.npz, `memory` that of
+    the step before (empty at the start), `sizing` the plain settings of the stage `resize`.
+    """
+    used = arrays.get(f"utilization_{sizing['measure']}")
+    following = propose_thickness(
+        analysis,
+        arrays["thickness"],
+        used,
+        memory,
+        make_step_rule(sizing),
+        read_constraints(arrays),
+    )
+    return replace(following, thickness=round_thickness(following.thickness))
 
 
 def propose_thickness(

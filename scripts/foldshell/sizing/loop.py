@@ -1,0 +1,40 @@
+"""The sizing loop in memory: what the rules analyse and resize do, without files in between."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from foldshell.sizing.case import AnalysisCase
+from foldshell.sizing.iteration import IterationTask
+from foldshell.sizing.step import take_step
+from foldshell.workbook.panels import round_thickness
+
+
+@dataclass(frozen=True)
+class LoopResult:
+    """The reports (analysis.json) of all iterations and the arrays (analysis.npz) of the last."""
+
+    reports: list[dict[str, Any]]
+    arrays: dict[str, np.ndarray]
+
+
+def run_loop(case: AnalysisCase, span: float, sizing: Mapping[str, Any]) -> LoopResult:
+    """Analyse and resize from the start thickness until a verdict ends the loop.
+
+    Every number equals that of the loop in files, to the last bit.
+    """
+    panels = int(case.model.mesh.panel.max()) + 1
+    thickness = round_thickness(np.full(panels, sizing["start_thickness"]))
+    reports: list[dict[str, Any]] = []
+    report: dict[str, Any] = {}
+    arrays: dict[str, np.ndarray] = {}
+    memory: Mapping[str, np.ndarray] = {}
+    while not reports or report["verdict"] == "continue":
+        if reports:
+            step = take_step(report, arrays, memory, sizing)
+            thickness, memory = step.thickness, step.memory
+        report, arrays = case.run(IterationTask(len(reports), span, thickness, report, arrays))
+        reports.append(report)
+    return LoopResult(reports, arrays)

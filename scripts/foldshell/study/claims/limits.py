@@ -1,0 +1,121 @@
+"""Claims on what limits a design: C10 to C13."""
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+from foldshell.study.claims.finding import HOLDS, Finding, judge_many
+from foldshell.study.claims.outcome import Comparer, Outcome, choose, choose_folded, state_fact
+from foldshell.study.claims.statement import Claim
+
+LOW = 0.6
+"""Mean utilization below which it counts as low: the lower limit of the paper's Table 3."""
+
+
+def judge_buckling(outcomes: Sequence[Outcome], comparer: Comparer) -> Claim:
+    """C10: mean utilization is low, and loads reach the buckling factor before strength.
+
+    Strength is reached at the load factor 1 / utilization of the most utilized panel.
+    """
+    designs = [_with_strength(one) for one in choose_folded(outcomes)]
+    findings = []
+    for one in designs:
+        limit = replace(one, values=one.values | {"utilization_mean": LOW}, errors=NO_ERRORS)
+        found = comparer.compare("utilization is low", limit, one, "utilization_mean")
+        findings.append(replace(found, designs=(one.name,)))
+    part = "buckling before strength"
+    findings += [
+        comparer.compare_within(part, one, "strength_factor", "buckling_factor") for one in designs
+    ]
+    return Claim("C10", findings, numbers={"held_by": count_bindings(designs)})
+
+
+NO_ERRORS = {name: (0.0, 0.0) for name in ("displacement", "utilization", "buckling")}
+
+
+def _with_strength(outcome: Outcome) -> Outcome:
+    """Add the load factor at which the mean of a panel reaches the strength."""
+    highest = outcome.values.get("utilization_panel_mean_max")
+    return replace(
+        outcome, values=outcome.values | {"strength_factor": 1 / highest if highest else None}
+    )
+
+
+def count_bindings(outcomes: Sequence[Outcome]) -> dict[str, int]:
+    """Return how many designs stand at each limit, one design perhaps at several."""
+    found: Counter[str] = Counter()
+    for outcome in outcomes:
+        found.update(find_bindings(outcome))
+    return dict(sorted(found.items()))
+
+
+def find_bindings(outcome: Outcome) -> list[str]:
+    """Return what keeps a design from being thinner: limits reached to 90 %, or least thickness."""
+    values, names = outcome.values, []
+    if values["displacement"] is None:
+        return [values["state"]]
+    if values["displacement"] > 0.9 * outcome.row["span_m"] / values["displacement_span_over"]:
+        names.append("displacement")
+    if values["utilization_panel_mean_max"] > 0.9:
+        names.append("utilization of a panel")
+    if values["panels_at_bound"] == outcome.panel_count:
+        names.append("least thickness in every panel")
+    if values["buckling_factor"] < 1.5:
+        names.append("buckling factor")
+    return names or ["none of these"]
+
+
+def judge_free_edges(outcomes: Sequence[Outcome]) -> Claim:
+    """C11: designs on two edges whose loop ends with panels above 1, and where these stand."""
+    designs = choose(choose_folded(outcomes), support=("zigzag", "strip"))
+    many, place = "many do not reach utilization 1", "panels above 1 stand at free edges"
+    findings = []
+    for one in designs:
+        above = one.values["above_one"]
+        over = above is None or above > 0
+        findings.append(state_fact(many, one.name, "panels above 1", above, 0.0, over))
+        if above:
+            share = one.values["above_one_at_free_edge"] / above
+            found = state_fact(place, one.name, "share of them", share, 0.5, share > 0.5)
+            findings.append(found)
+    findings.sort(key=lambda finding: finding.part != many)
+    return Claim("C11", findings, judges={many: judge_many, place: judge_many})
+
+
+def judge_deflected_edges(outcomes: Sequence[Outcome], comparer: Comparer) -> Claim:
+    """C12: largest downward displacement on the panels along free edges, and on all others."""
+    designs = choose(choose_folded(outcomes), support=("zigzag", "strip"))
+    part = "more deflection along free edges"
+    names = "displacement_edge", "displacement_inner"
+    return Claim("C12", [comparer.compare_within(part, one, *names) for one in designs])
+
+
+def judge_folds(
+    outcomes: Sequence[Outcome], flats: Mapping[str, Mapping[str, Any]], comparer: Comparer
+) -> Claim:
+    """C13: a sized folded sheet against the flat sheet with the same volume of material.
+
+    `flats` has what the flat sheet does, by the name of the folded design; where it is unstable
+    its first-order displacement is compared and the finding holds: it does not stand.
+    """
+    findings, numbers = [], {}
+    for one in choose_folded(outcomes):
+        flat = flats.get(one.name)
+        if flat is None:
+            continue
+        other = Outcome({**one.row, "design": flat["flat"]}, flat["measures"], one.errors)
+        found = comparer.compare("less deflection when folded", other, one, "displacement")
+        stands = flat["measures"]["state"] != "unstable"
+        findings.append(found if stands else _fallen(found, flat))
+        numbers[one.name] = {name: flat[name] for name in NUMBERS}
+    return Claim("C13", findings, numbers={"flat": numbers})
+
+
+NUMBERS = ("flat", "thickness_m", "volume_m3", "area_m2", "sides_m", "displacement_first_order_m",
+           "measures")  # fmt: skip
+
+
+def _fallen(found: Finding, flat: Mapping[str, Any]) -> Finding:
+    values = flat["displacement_first_order_m"], found.values[1]
+    return replace(found, values=values, uncertainty=None, verdict=HOLDS)

@@ -1,0 +1,137 @@
+"""What claims compare of one analysed state, as plain numbers from its report and its fields."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+SCALARS = (
+    "utilization_mean",
+    "utilization_max",
+    "utilization_panel_mean_max",
+    "panels_above_one",
+    "panels_at_bound",
+)
+
+
+@dataclass(frozen=True)
+class Layout:
+    """Counts of polylines of a design, and which edges stand on supports: all, zigzag or strip."""
+
+    zigzag: int
+    strip: int
+    support: str
+
+    @property
+    def free_edge_panels(self) -> np.ndarray:
+        """True for panels in the row along an edge without supports, (P,)."""
+        row, column = np.indices((self.zigzag - 1, self.strip - 1))
+        on_zigzag = (row == 0) | (row == self.zigzag - 2)
+        on_strip = (column == 0) | (column == self.strip - 2)
+        free = {"all": np.zeros_like(on_strip), "zigzag": on_strip, "strip": on_zigzag}
+        return free[self.support].ravel()
+
+
+def measure_state(
+    mesh: Mapping[str, np.ndarray],
+    layout: Layout,
+    report: Mapping[str, Any],
+    fields: Mapping[str, np.ndarray],
+    combinations: Mapping[str, Mapping[str, Any]],
+    measure: str,
+) -> dict[str, Any]:
+    """Return all measures of an analysed state; those of an answer it did not give are None.
+
+    `mesh`, `report` and `fields` are the contents of mesh.npz, analysis.json and analysis.npz,
+    `combinations` has the groups strength and deflection.
+    """
+    count = len(combinations["deflection"])
+    return {
+        **measure_report(report, combinations["strength"]),
+        **measure_fields(mesh, layout, fields, measure),
+        **measure_edge_displacement(mesh, layout, fields.get("translations"), count),
+    }
+
+
+def measure_report(report: Mapping[str, Any], strength: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the numbers that analysis.json alone gives (m, m3, -); None where it has none.
+
+    `strength` are the strength combinations; the least buckling factor is over these.
+    """
+    factors = [report["buckling_factor"][name] for name in strength]
+    known = [factor for factor in factors if factor is not None]
+    return {
+        "state": report["verdict"],
+        "reason": report["reason"],
+        "iterations": report["iteration"] + 1,
+        "volume": report["volume_m3"],
+        "volume_per_area": report["volume_m3"] / report["area_m2"],
+        "displacement": report.get("displacement_vertical_max_m"),
+        "buckling_factor": min(known, default=None),
+        **{name: report.get(name) for name in SCALARS},
+    }
+
+
+def measure_fields(
+    mesh: Mapping[str, np.ndarray], layout: Layout, fields: Mapping[str, np.ndarray], measure: str
+) -> dict[str, Any]:
+    """Return the numbers that need panels and nodes; None where the analysis gave no answer.
+
+    Parameters
+    ----------
+    mesh : arrays of mesh.npz
+    fields : arrays of analysis.npz
+    measure : utilization of a panel that limits hold for, panel_mean or element_max
+    """
+    area = np.bincount(mesh["facet_panel"], facet_areas(mesh["vertices"], mesh["facets"]))
+    used = fields.get("utilization_panel_mean")
+    result: dict[str, Any] = {"panel_area": float(area.mean())}
+    result |= dict.fromkeys(("utilization_variation", "above_one", "above_one_at_free_edge"))
+    if used is not None:
+        above = fields[f"utilization_{measure}"] > 1
+        result["utilization_variation"] = weighted_variation(used, area)
+        result["above_one"] = int(above.sum())
+        result["above_one_at_free_edge"] = int((above & layout.free_edge_panels).sum())
+    return result
+
+
+def measure_edge_displacement(
+    mesh: Mapping[str, np.ndarray], layout: Layout, translations: np.ndarray | None, count: int
+) -> dict[str, float | None]:
+    """Return the largest downward displacement (m) along free edges and elsewhere.
+
+    Along an edge means on a panel of the row beside it; `translations` is (N, 3, c) m with the
+    deflection combinations in its last `count` columns.
+    """
+    nothing = {"displacement_edge": None, "displacement_inner": None}
+    along = layout.free_edge_panels
+    if translations is None or not along.any():
+        return nothing
+    down = (-translations[:, 2, -count:]).max(axis=1)
+    at_edge = np.zeros(len(down), dtype=bool)
+    at_edge[mesh["elements"][along[mesh["panel"]]].ravel()] = True
+    return {
+        "displacement_edge": float(down[at_edge].max()),
+        "displacement_inner": float(down[~at_edge].max()),
+    }
+
+
+def measure_depth(vertices: np.ndarray, zigzag: int, strip: int) -> float:
+    """Return the mean depth of the folds (m): how far ridges stand off the middle of the two
+    zig-zags beside them, along the same strip line; (V, 3) m in the order of zig-zags."""
+    point = vertices.reshape(zigzag, strip, 3)
+    off = point[1:-1] - (point[:-2] + point[2:]) / 2
+    return float(np.linalg.norm(off, axis=2).mean())
+
+
+def facet_areas(vertices: np.ndarray, facets: np.ndarray) -> np.ndarray:
+    """Return the area of triangles (F,) m2."""
+    a, b, c = vertices[facets].swapaxes(0, 1)
+    return np.linalg.norm(np.cross(b - a, c - a), axis=1) / 2
+
+
+def weighted_variation(values: np.ndarray, weight: np.ndarray) -> float:
+    """Return the standard deviation over the mean, both weighted (-)."""
+    mean = np.average(values, weights=weight)
+    return float(np.sqrt(np.average((values - mean) ** 2, weights=weight)) / mean)

@@ -1,0 +1,52 @@
+"""Rule sensitivity: the sizing loop of one design under one changed setting, in memory."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from foldshell.sizing.case import open_case
+from foldshell.sizing.loop import run_loop
+from foldshell.study.errors import user_errors
+from foldshell.study.files import read_arrays, write_json
+from foldshell.study.measures import Layout, measure_state
+from foldshell.study.sensitivity import VARIANTS, change_settings
+
+
+def main(
+    mesh_path: str | Path,
+    json_path: str | Path,
+    *,
+    design: str,
+    variant: str,
+    span_m: float,
+    layout: tuple[int, int, str],
+    settings: Mapping[str, Any],
+) -> None:
+    """Write what claims compare of the last state.
+
+    `layout` are zigzag, strip and support of the design, `settings` the plain parameters of the
+    stage `size` before the variant changes them.
+    """
+    changed = change_settings(settings, variant)
+    result = run_loop(open_case(mesh_path, changed), span_m, changed["sizing"])
+    measures = measure_state(
+        read_arrays(mesh_path),
+        Layout(*layout),
+        result.reports[-1],
+        result.arrays,
+        changed["combinations"],
+        changed["sizing"]["measure"],
+    )
+    report = {"design": design, "variant": variant, "changes": VARIANTS[variant]}
+    write_json(json_path, report | {"measures": measures})
+
+
+if "snakemake" in globals():
+    with user_errors():
+        main(
+            snakemake.input.mesh,  # noqa: F821
+            snakemake.output.json,  # noqa: F821
+            design=snakemake.wildcards.design,  # noqa: F821
+            variant=snakemake.wildcards.variant,  # noqa: F821
+            **snakemake.params,  # noqa: F821
+        )
