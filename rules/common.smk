@@ -9,7 +9,7 @@ from foldshell.study.stages import choose_subdivisions, settings_hash, stage_par
 
 BY_NAME = {design.name: design for design in DESIGNS}
 SECTOR_ANGLE_DEG = round(math.degrees(SETTINGS.pattern.sector_angle), 10)
-PICTURES = ["thickness", "utilization", "displacement", "planarity"]
+PICTURES = ["thickness", "classes", "utilization", "displacement", "planarity"]
 PICTURES += ["strain", "force_lines", "isolines", "buckling"]
 LOOP = f"{RESULTS}/{{design}}/sizing"
 STEP = f"{LOOP}/{{iteration}}"

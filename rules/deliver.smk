@@ -9,6 +9,7 @@ rule draw:
         folded=rules.fold.output.folded,
         final=rules.size.output.arrays,
         report=rules.size.output.final,
+        classes=rules.group.output.arrays,
         library=library("draw"),
     output:
         **{name: f"{RESULTS}/{{design}}/figures/{name}.png" for name in PICTURES},

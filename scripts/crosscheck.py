@@ -3,13 +3,12 @@
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from crosscheck.comparison import SECOND_ORDER, build_independent, compare
 from crosscheck.errors import CrosscheckError, report_errors
 from crosscheck.model import read_model
-from crosscheck.primary import read_primary
+from crosscheck.primary import read_primary, read_reason
 from crosscheck.reading import write_json
-from crosscheck.stability import analyse_mesh
 from crosscheck.system import SHEAR_FACTOR
+from crosscheck.verdict import compare_codes, leave_out
 from crosscheck.workbook import write_comparison
 
 
@@ -28,17 +27,19 @@ def main(
 
     `subdivisions` are the elements along a block side of each mesh, coarse to fine; `tolerance`
     overrides relative tolerances by quantity; `stability` adds the buckling factors and values
-    of second order that the primary code gives. `shear_factor` 5/6 is the physical plate.
+    of second order that the primary code gives. `shear_factor` 5/6 is the physical plate. A
+    mechanism has nothing to compare: `pass` is null, with the reason.
     """
-    model = read_model(model_path)
-    primary = read_primary(primary_path, model.compared_combinations)
+    model, reason = read_model(model_path), read_reason(primary_path)
     meshes = [int(m) for m in subdivisions]
     if not meshes or any(m < 1 for m in meshes) or meshes != sorted(set(meshes)):
         raise CrosscheckError(f"crosscheck.subdivisions: {meshes}: allowed are increasing, from 1")
-    buckling = stability and "buckling_factor" in primary.names
-    second = stability and any(SECOND_ORDER in name for name in primary.values)
-    runs = [analyse_mesh(model, m, shear_factor, buckling, second) for m in meshes]
-    result = compare(primary, build_independent(meshes, runs), tolerance or {})
+    if reason is None:
+        primary = read_primary(primary_path, model.compared_combinations)
+        how = (meshes, tolerance or {}, stability, shear_factor)
+        result = compare_codes(model, primary, *how)
+    else:
+        result = leave_out(None, reason)
     write_comparison(workbook_path, model.design, result)
     write_json(json_path, {"design": model.design, **result})
 

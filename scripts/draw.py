@@ -17,6 +17,7 @@ def main(
     folded_path: str | Path,
     final_path: str | Path,
     report_path: str | Path,
+    classes_path: str | Path,
     vtu_path: str | Path,
     lines_path: str | Path,
     pictures: Mapping[str, str | Path],
@@ -26,16 +27,13 @@ def main(
     pattern: str,
     settings: Mapping[str, Any],
 ) -> None:
-    """Write design.vtu, design_lines.vtu and the PNG files of `pictures`, named as in `PICTURES`.
-
-    `settings` are the parameters of stages `size` and `figures`; report_path is final.json.
-    """
-    state = read_state(
-        design, mesh_path, folded_path, final_path, report_path, settings["combinations"]
-    )
+    """Write design.vtu, design_lines.vtu and the PNG files of `pictures`, named as in `PICTURES`;
+    `settings` are the parameters of stages `size` and `figures`, report_path is final.json."""
+    files = mesh_path, folded_path, final_path, report_path
+    state = read_state(design, *files, settings["combinations"], classes_path)
     material, sizing, figures = (settings[name] for name in ("material", "sizing", "figures"))
     elasticity = Elasticity(material["youngs_modulus"], material["poissons_ratio"])
-    write_design_vtu(vtu_path, state, elasticity, sizing["classes"])
+    write_design_vtu(vtu_path, state, elasticity)
     limits = Limits(sizing["utilization_max"], sizing["displacement_limit_span_over"])
     subject = make_subject(state, span_m, limits, elasticity, pattern != "smooth")
     write_lines_vtu(lines_path, subject)
@@ -52,6 +50,7 @@ if "snakemake" in globals():
             snakemake.input.folded,  # noqa: F821
             snakemake.input.final,  # noqa: F821
             snakemake.input.report,  # noqa: F821
+            snakemake.input.classes,  # noqa: F821
             files.pop("vtu"),
             files.pop("lines"),
             files,

@@ -1,9 +1,10 @@
 """Rule refine: the final state on a second mesh, for its mesh error and for the cross-check."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from foldshell.shell.edge_beams import make_edge_beam
 from foldshell.shell.loads import Loads
 from foldshell.shell.material import Material
 from foldshell.shell.mesh_study import estimate_errors, study_mesh
@@ -18,10 +19,12 @@ def main(
     primary_path: str | Path,
     *,
     support: str,
+    edge_beam: Sequence[float] = (0.0, 0.0),
     subdivisions: int,
     settings: Mapping[str, Any],
 ) -> None:
-    """Write mesh_study.json (errors of the mesh in use) and crosscheck/primary.json."""
+    """Write mesh_study.json (errors of the mesh in use) and crosscheck/primary.json; those of a
+    mechanism hold the reason in place of numbers."""
     chosen = settings["crosscheck"]
     groups = settings["combinations"]
     combinations = {
@@ -35,15 +38,12 @@ def main(
         Material(**settings["material"]),
         Loads(**settings["loads"]),
         combinations,
+        make_edge_beam(*edge_beam),
     )
     errors = estimate_errors(study)
-    report = {
-        "mesh_error": max(error for values in errors.values() for error in values.values()),
-        "subdivisions": subdivisions,
-        "errors": errors,
-        "study": study,
-    }
-    write_json(study_path, report)
+    found = [error for values in errors.values() for error in values.values()]
+    report = {"mesh_error": max(found, default=None), "subdivisions": subdivisions}
+    write_json(study_path, report | {"errors": errors, "study": study})
     write_json(primary_path, study)
 
 

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from crosscheck.errors import CrosscheckError
+from crosscheck.errors import MechanismError
 from crosscheck.frontal import NotPositiveDefinite
 from crosscheck.loads import combine_cases, compute_surface_loads, distribute_loads
 from crosscheck.model import Model
@@ -44,7 +44,7 @@ def analyse_model(model: Model, subdivisions: int, shear_factor: float = SHEAR_F
     try:
         system = build_system(grid, section)
     except NotPositiveDefinite:
-        raise CrosscheckError(
+        raise MechanismError(
             "model: supported_edges: these let the shell move: allowed are edges that hold it"
         ) from None
     loads = compute_surface_loads(model, grid.axes[:, 2])

@@ -9,6 +9,10 @@ class CrosscheckError(ValueError):
     """A file or a value that cannot be used: file, place, value, and what is allowed."""
 
 
+class MechanismError(CrosscheckError):
+    """The supports let the shell move: there are no displacements."""
+
+
 @contextmanager
 def report_errors() -> Iterator[None]:
     """Turn a `CrosscheckError` into one line on stderr and exit code 1, without a traceback."""

@@ -11,6 +11,12 @@ from crosscheck.reading import Place, read_json
 VECTORS = ("reaction_sum_kn", "load_sum_kn")
 
 
+def read_reason(path: str | Path) -> str | None:
+    """Why the primary code has no values (a mechanism), None where it has some."""
+    root = Place(Path(path).name, "", read_json(path))
+    return root.key("reason").text() if "reason" in root.names() else None
+
+
 def read_primary(path: str | Path, combinations: Iterable[str]) -> Code:
     """Read and check the primary code's values of the given combinations, a value a mesh.
 

@@ -113,10 +113,12 @@ def _name_quantity(key: str) -> tuple[str, str]:
 def _write_comparison(
     sheet: Worksheet, design: str, comparison: Mapping[str, Any], style: dict
 ) -> None:
-    verdict = "passed" if comparison["pass"] else "failed"
+    verdict = {True: "passed", False: "failed", None: "not possible"}[comparison["pass"]]
     widths = (12, 36, 6, 13, 13, 11, 11, 9, 12, 12)
     _start_sheet(sheet, f"{design}: cross-check {verdict}", COLUMNS, widths, style)
     row = 3
+    if "reason" in comparison:
+        sheet.write(row, 0, comparison["reason"], style["text"])
     for key, entry in comparison["quantities"].items():
         end = "" if entry["pass"] else "_failed"
         value = style[("small" if key.endswith("imbalance") else "number") + end]

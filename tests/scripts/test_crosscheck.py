@@ -10,7 +10,8 @@ from pathlib import Path
 import openpyxl
 import pytest
 
-from crosscheck.errors import CrosscheckError
+from crosscheck import verdict
+from crosscheck.errors import CrosscheckError, MechanismError
 from crosscheck.model import read_model
 from crosscheck.stability import analyse_mesh
 from crosscheck.system import SHEAR_FACTOR
@@ -70,6 +71,31 @@ def test_agreeing_codes_pass(main, tmp_path, primary_values):
         "model.json",
         "primary.json",
     ]
+
+
+def test_a_mechanism_is_not_compared_and_says_why(main, tmp_path):
+    """The primary code has no displacements to compare: neither passed nor failed."""
+    primary = {"subdivisions": [4, 12], "combinations": {}, "reason": "moves most at node 7"}
+    paths = write_inputs(tmp_path, primary)
+    main(*paths, subdivisions=[1, 2])
+    result = json.loads(paths[2].read_text())
+    assert result["pass"] is None and result["reason"] == "moves most at node 7"
+    assert result["quantities"] == {}
+    sheet = openpyxl.load_workbook(paths[3])["comparison"]
+    assert "not possible" in sheet["A1"].value and sheet["A4"].value == "moves most at node 7"
+
+
+def test_a_mechanism_that_only_the_independent_code_finds_fails(
+    main, tmp_path, primary_values, monkeypatch
+):
+    def give_way(*_arguments):
+        raise MechanismError("these let the shell move")
+
+    monkeypatch.setattr(verdict, "analyse_mesh", give_way)
+    paths = write_inputs(tmp_path, primary_values)
+    main(*paths, subdivisions=[1, 2])
+    result = json.loads(paths[2].read_text())
+    assert result["pass"] is False and "let the shell move" in result["reason"]
 
 
 def slip_load_factor(model):

@@ -8,12 +8,12 @@ import draw
 from foldshell.study.errors import InputError
 from unit.figures.figure_cases import COMBINATIONS, write_case
 
-NAMES = ("thickness", "utilization", "displacement", "planarity", "strain",
+NAMES = ("thickness", "classes", "utilization", "displacement", "planarity", "strain",
          "force_lines", "isolines", "buckling")  # fmt: skip
 SETTINGS = {
     "combinations": COMBINATIONS,
     "material": {"youngs_modulus": 31e6, "poissons_ratio": 0.2},
-    "sizing": {"utilization_max": 1.0, "displacement_limit_span_over": 240, "classes": 3},
+    "sizing": {"utilization_max": 1.0, "displacement_limit_span_over": 240},
     "figures": {"width_px": 480, "height_px": 360},
 }
 
@@ -27,7 +27,7 @@ def run(folder, paths, names=NAMES):
 
 
 def test_all_pictures_have_the_size_asked_for(tmp_path):
-    """Eight PNG files of 480 x 360, and the two VTU files."""
+    """Nine PNG files of 480 x 360, and the two VTU files."""
     images = run(tmp_path, write_case(tmp_path))
     assert {image.shape for image in images.values()} == {(360, 480, 3)}
     assert (tmp_path / "design.vtu").stat().st_size > 1000

@@ -1,5 +1,7 @@
 """Entry scripts of the rules mesh, neutral_model and refine on a small sheet."""
 
+from dataclasses import replace
+
 import meshio
 import numpy as np
 import pytest
@@ -8,6 +10,7 @@ import mesh
 import neutral_model
 import refine
 from foldshell.exchange.neutral_model import FORMAT
+from foldshell.shell import mesh_study
 from foldshell.shell.mesh_files import read_mesh
 from foldshell.study.errors import InputError
 from foldshell.study.files import read_json, write_arrays
@@ -108,3 +111,22 @@ def test_refine_gives_two_meshes_and_the_error_of_the_first(folder):
     down = primary["combinations"]["S2"]["load_sum_kn"][0]
     up = primary["combinations"]["S2"]["reaction_sum_kn"][0]
     assert np.add(up, down) == pytest.approx(0, abs=1e-8)
+
+
+def test_refine_of_a_mechanism_gives_its_reason_in_place_of_numbers(folder, monkeypatch):
+    """The analysis of a mechanism has no displacements, which JSON could not hold either."""
+    real = mesh_study.analyse_shell
+
+    def give_way(*arguments):
+        result = real(*arguments)
+        nothing = np.full_like(result.displacement, np.nan)
+        return replace(result, state="mechanism", reason="node 3 moves", displacement=nothing)
+
+    monkeypatch.setattr(mesh_study, "analyse_shell", give_way)
+    refine.main(
+        folder / "folded.npz", folder / "final.npz", folder / "study.json",
+        folder / "primary.json", support="zigzag", subdivisions=2, settings=SETTINGS,
+    )  # fmt: skip
+    study, primary = read_json(folder / "study.json"), read_json(folder / "primary.json")
+    assert study["mesh_error"] is None and study["errors"] == {}
+    assert primary["reason"] == "node 3 moves" and primary["combinations"] == {}

@@ -116,6 +116,7 @@ def test_each_ending_has_its_row(tmp_path):
     write_results(results / "spoilt")
     write(results / "spoilt/sizing/01/analysis.json", '{"verdict": "conv')
     write(results / "fine/crosscheck/comparison.json", {"pass": False})
+    write(results / "open/crosscheck/comparison.json", {"pass": None, "reason": "a mechanism"})
     rows = {
         row["design"]: row
         for row in run(tmp_path, [*sorted(p.name for p in results.iterdir()), "none"])
@@ -129,7 +130,8 @@ def test_each_ending_has_its_row(tmp_path):
         "spoilt": "failed",
         "none": "failed",
     }
-    assert rows["fine"]["crosscheck"] == "fail" and rows["open"]["crosscheck"] == ""
+    assert rows["fine"]["crosscheck"] == "fail" and rows["cut"]["crosscheck"] == ""
+    assert rows["open"]["crosscheck"] == "not possible"
     assert rows["crumpled"]["reason"] == "too steep"
     assert rows["cut"]["reason"] == "sizing/02/analysis.json is missing"
     assert rows["cut"]["volume_m3"] == "89.0"

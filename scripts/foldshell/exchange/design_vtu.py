@@ -1,13 +1,13 @@
 """design.vtu: the final fields of a design on its result cells, for ParaView and the like.
 
 Cell fields: panel, thickness [m], thickness_class (1, 2, ... in rising order) and class_thickness
-[m] for fabrication, utilization [-], utilization_panel_mean [-], governing_combination (1 for the
-first strength combination),
-nx, ny, nxy [kN/m] in the facet's axes (axis_x; normal upward), principal forces n1 >= n2 [kN/m]
-with their unit directions, and principal_1, principal_2: direction times force. Point fields:
-displacement [m], supported. Membrane forces and displacement belong to the combinations whose
-numbers stand in force_combination and displacement_combination, counted on from the strength
-combinations. What an unstable design lacks is left out.
+[m] of the design in classes (sizing/classes.npz), utilization [-], utilization_panel_mean [-],
+governing_combination (1 for the first strength combination), nx, ny, nxy [kN/m] in the facet's
+axes (axis_x; normal upward), principal forces n1 >= n2 [kN/m] with their unit directions, and
+principal_1, principal_2: direction times force. Point fields: displacement [m], supported.
+Membrane forces and displacement belong to the combinations whose numbers stand in
+force_combination and displacement_combination, counted on from the strength combinations. What an
+unstable design lacks is left out.
 """
 
 from pathlib import Path
@@ -16,7 +16,6 @@ import numpy as np
 
 from foldshell.figures.drafts import Elasticity, Subject
 from foldshell.figures.fields import (
-    cell_area,
     cell_thickness,
     choose_deflection,
     choose_strength,
@@ -28,20 +27,19 @@ from foldshell.figures.flow_pictures import utilization_isolines
 from foldshell.figures.force_lines import split_lines
 from foldshell.figures.state import DesignState
 from foldshell.shell.mesh import edge_polyline_nodes
-from foldshell.sizing.classes import group_thicknesses
 from foldshell.study.files import atomic_path
 
 
-def cell_fields(
-    state: DesignState, elasticity: Elasticity, classes: int = 0
-) -> dict[str, np.ndarray]:
-    """Return the cell fields (C,) or (C, 3) that the state allows, by name; 0 classes: none."""
+def cell_fields(state: DesignState, elasticity: Elasticity) -> dict[str, np.ndarray]:
+    """Return the cell fields (C,) or (C, 3) that the state allows, by name."""
     fields: dict[str, np.ndarray] = {
         "panel": state.cell_panel.astype(np.int32),
         "thickness": cell_thickness(state),
     }
-    if classes:
-        fields |= class_fields(state, classes)
+    if state.classes:
+        panel_class = state.classes["panel_class"][state.cell_panel]
+        fields["thickness_class"] = panel_class.astype(np.int32)
+        fields["class_thickness"] = state.classes["thickness"][state.cell_panel]
     if state.utilization is not None:
         fields["utilization"] = state.utilization
         fields["utilization_panel_mean"] = state.final["utilization_panel_mean"][state.cell_panel]
@@ -50,16 +48,6 @@ def cell_fields(
     if state.usable:
         fields |= force_fields(state, elasticity)
     return fields
-
-
-def class_fields(state: DesignState, classes: int) -> dict[str, np.ndarray]:
-    """Return the number and the thickness (m) of the class of each cell's panel."""
-    area = np.bincount(state.cell_panel, cell_area(state))
-    groups = group_thicknesses(state.final["thickness"], area, classes)
-    return {
-        "thickness_class": groups.panel_class[state.cell_panel].astype(np.int32),
-        "class_thickness": groups.thickness[state.cell_panel],
-    }
 
 
 def force_fields(state: DesignState, elasticity: Elasticity) -> dict[str, np.ndarray]:
@@ -91,13 +79,11 @@ def point_fields(state: DesignState) -> dict[str, np.ndarray]:
     return fields
 
 
-def write_design_vtu(
-    path: str | Path, state: DesignState, elasticity: Elasticity, classes: int = 0
-) -> None:
+def write_design_vtu(path: str | Path, state: DesignState, elasticity: Elasticity) -> None:
     """Write design.vtu: result cells as triangles, nodes in m."""
     import meshio
 
-    fields = cell_fields(state, elasticity, classes)
+    fields = cell_fields(state, elasticity)
     grid = meshio.Mesh(
         state.cells.nodes,
         [("triangle", state.triangles)],

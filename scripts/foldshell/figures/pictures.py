@@ -69,6 +69,22 @@ def draft_thickness(subject: Subject) -> Draft:
     )
 
 
+def draft_classes(subject: Subject) -> Draft:
+    """Panels coloured by the thickness of their class, on the scale of the picture thickness."""
+    state = subject.state
+    if not state.classes:
+        return draft_nothing(subject, "Thickness classes", "no thickness classes")
+    number = state.classes["panel_class"]
+    values = 1e3 * state.classes["thickness"]
+    words = [
+        f"{k}: {values[number == k].max():.1f} mm in {(number == k).sum()} panels"
+        for k in np.unique(number)
+    ]
+    scale = make_scale(np.append(values, 1e3 * state.final["thickness"]), "YlGnBu")
+    title, quantity = "Thickness classes", "thickness of the class [mm]"
+    return draft_field(subject, title, "; ".join(words), quantity, values[state.cell_panel], scale)
+
+
 def draft_utilization(subject: Subject) -> Draft:
     """Cells coloured by their largest utilization; what is above the limit stands out."""
     state, limit = subject.state, subject.limits.utilization_max
@@ -149,6 +165,7 @@ def exaggeration(moved: np.ndarray, span: float) -> float:
 
 PICTURES: dict[str, Callable[[Subject], Draft]] = {
     "thickness": draft_thickness,
+    "classes": draft_classes,
     "utilization": draft_utilization,
     "displacement": draft_displacement,
     "planarity": draft_planarity,

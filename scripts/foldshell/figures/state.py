@@ -1,7 +1,7 @@
 """The final state of a design, read once for all its pictures and for design.vtu."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -25,7 +25,7 @@ class DesignState:
     `mesh` is the shell mesh, `cells` the linear mesh of its result cells and `triangles`
     (C, 3) those cells; `shell`, `folded`, `final` hold the arrays of mesh.npz, folded.npz,
     final.npz and `report` is final.json. `strength` and `deflection` name the combinations in
-    the order of the displacement columns.
+    the order of the displacement columns. `classes` hold the arrays of sizing/classes.npz.
     """
 
     name: str
@@ -38,6 +38,7 @@ class DesignState:
     report: Mapping[str, Any]
     strength: tuple[str, ...]
     deflection: tuple[str, ...]
+    classes: Mapping[str, np.ndarray] = field(default_factory=dict)
 
     @property
     def combinations(self) -> tuple[str, ...]:
@@ -88,8 +89,9 @@ def read_state(
     final_path: str | Path,
     report_path: str | Path,
     combinations: Mapping[str, Mapping[str, Any]],
+    classes_path: str | Path | None = None,
 ) -> DesignState:
-    """Read mesh.npz, folded.npz, final.npz and final.json of one design.
+    """Read mesh.npz, folded.npz, final.npz, final.json and, if given, classes.npz of a design.
 
     `combinations` are those of the settings: strength and deflection, by name.
 
@@ -117,4 +119,5 @@ def read_state(
         report=read_json(report_path),
         strength=tuple(combinations["strength"]),
         deflection=tuple(combinations["deflection"]),
+        classes=read_arrays(classes_path) if classes_path else {},
     )

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from foldshell.shell.analysis import analyse_shell, build_model
+from foldshell.shell.edge_beams import EdgeBeam
 from foldshell.shell.material import Material
 from foldshell.shell.mesh_files import mesh_folded_sheet, mesh_from_arrays
 from foldshell.shell.results import (
@@ -41,6 +42,10 @@ QUANTITIES = (
 )
 
 
+class MechanismError(ValueError):
+    """A state without displacements, and where it gives way."""
+
+
 def extrapolate(coarse: float, fine: float, ratio: float, order: float = ORDER) -> float:
     """Return the Richardson limit fine + (fine - coarse) / (ratio^order - 1)."""
     return fine + (fine - coarse) / (ratio**order - 1)
@@ -54,31 +59,37 @@ def study_mesh(
     material: Material,
     loads: Any,
     combinations: Mapping[str, Mapping[str, float]],
+    edge_beam: EdgeBeam | None = None,
 ) -> dict[str, Any]:
     """Return {quantity: [on the mesh in use, on the reference mesh]} by combination.
 
     Quantities are of first order; `second_order` holds the same to second order, where the
-    structure does not buckle, and `buckling_factor` stands beside them.
+    structure does not buckle, and `buckling_factor` stands beside them. A mechanism has none of
+    them: `combinations` is empty and `reason` says why.
 
     Parameters
     ----------
     folded : arrays of folded.npz
     panel_thickness : (P,) m
     subdivisions : of the mesh in use
+    edge_beam : its strips count among the panels
     """
-    state = (folded, support, panel_thickness, material, loads, combinations)
+    state = (folded, support, edge_beam, panel_thickness, material, loads, combinations)
     in_use = {"subdivisions": subdivisions}
-    meshes = [_analyse(mesh, *state) for mesh in (in_use, REFERENCE)]
-    local = _analyse(in_use | {"order": BUCKLING_ORDER}, *state)
-    for name in combinations:
-        meshes[1][name]["buckling_factor"] = local[name]["buckling_factor"]
-    found = {name: _pair(meshes[0][name], meshes[1][name]) for name in combinations}
-    return {
+    report = {
         "subdivisions": [subdivisions, max(REFERENCE["subdivisions"], 2 * subdivisions)],
         "reference": REFERENCE,
         "buckling_order": BUCKLING_ORDER,
-        "combinations": found,
     }
+    try:
+        meshes = [_analyse(mesh, *state) for mesh in (in_use, REFERENCE)]
+        local = _analyse(in_use | {"order": BUCKLING_ORDER}, *state)
+    except MechanismError as error:
+        return {**report, "combinations": {}, "reason": str(error)}
+    for name in combinations:
+        meshes[1][name]["buckling_factor"] = local[name]["buckling_factor"]
+    found = {name: _pair(meshes[0][name], meshes[1][name]) for name in combinations}
+    return {**report, "combinations": found}
 
 
 def _pair(coarse: Mapping[str, Any], fine: Mapping[str, Any]) -> dict[str, Any]:
@@ -111,13 +122,17 @@ def _relative(value: float, limit: float) -> float:
     return abs(value - limit) / abs(limit) if limit else 0.0
 
 
-def _analyse(mesh, folded, support, panel_thickness, material, loads, combinations):
+def _analyse(mesh, folded, support, edge_beam, panel_thickness, material, loads, combinations):
     """Analyse one mesh; return {combination: {quantity: value, second_order: {...}}}."""
-    arrays = mesh_folded_sheet(dict(folded), support, **mesh)
-    mesh = mesh_from_arrays(arrays)
-    model = build_model(mesh, arrays["supported_nodes"], material.poissons_ratio)
-    thickness = panel_thickness[mesh.panel]
+    arrays = mesh_folded_sheet(dict(folded), support, **mesh, edge_beam=edge_beam)
+    held, fixed = arrays["supported_nodes"], arrays.get("fixed_thickness")
+    model = build_model(
+        mesh_from_arrays(arrays), held, material.poissons_ratio, fixed_thickness=fixed
+    )
+    thickness = model.spread(panel_thickness)
     result = analyse_shell(model, thickness, material, loads, combinations)
+    if result.state == "mechanism":
+        raise MechanismError(result.reason)
     first = replace(result, displacement=result.linear, second_order=None)
     values = _measure(model, first, thickness, material)
     for column, name in enumerate(result.names):

@@ -60,10 +60,17 @@ def make_summary_row(
     row["buckling_factor_min"] = find_least_factor(last)
     row["state"], row["reason"] = _judge(quality, last, problems)
     row["mesh_error"] = _read_optional(folder / "mesh_study.json").get("mesh_error")
-    passed = _read_optional(folder / "crosscheck/comparison.json").get("pass")
-    row["crosscheck"] = None if passed is None else ("pass" if passed else "fail")
+    row["crosscheck"] = _say_crosscheck(_read_optional(folder / "crosscheck/comparison.json"))
     row["settings_hash"] = settings_hash
     return row
+
+
+def _say_crosscheck(comparison: Mapping[str, Any]) -> str | None:
+    """Return pass or fail, `not possible` for a mechanism, None before the comparison."""
+    passed = comparison.get("pass")
+    if passed is not None:
+        return "pass" if passed else "fail"
+    return "not possible" if "reason" in comparison else None
 
 
 def _read(path: Path, folder: Path, problems: list[str]) -> dict[str, Any]:

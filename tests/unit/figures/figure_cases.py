@@ -32,7 +32,7 @@ def sheet_arrays(folded=True):
 
 
 def write_case(folder, folded=True, utilization=0.4, move=None, thickness=None, **report):
-    """Write mesh.npz, folded.npz, final.npz, final.json; return their paths in that order.
+    """Write mesh.npz, folded.npz, final.npz, final.json, classes.npz; return paths in that order.
 
     `move` gives displacements (N, 3) m of nodes (N, 3) in D2, ten times what it is in all others;
     `utilization` is one value, or None for a design that has none.
@@ -53,13 +53,21 @@ def write_case(folder, folded=True, utilization=0.4, move=None, thickness=None, 
         final["utilization_panel_mean"] = np.full(PANELS, utilization)
         final["governing_combination"] = np.ones(shape, dtype=int)
     write_arrays(folder / "final.npz", final)
+    panel_class = 1 + np.arange(PANELS) * 3 // PANELS
+    of_class = np.array([0.1, 0.15, 0.2])
+    classes = {"panel_class": panel_class, "thickness": of_class[panel_class - 1]}
+    write_arrays(folder / "classes.npz", classes)
     facts = {"verdict": "converged", "reason": "all criteria are met", "iteration": 3,
              "state": "ok", "volume_m3": 2.0, "area_m2": 20.0,
              "utilization_panel_mean_max": utilization, "utilization_p99": utilization,
              "utilization_mean": utilization,
              "buckling_factor": {"S1": 3.0, "S2": 2.0, "D1": None, "D2": 4.0}}  # fmt: skip
     write_json(folder / "final.json", facts | report)
-    return tuple(folder / name for name in ("mesh.npz", "folded.npz", "final.npz", "final.json"))
+    files = ("mesh", "folded", "final", "final", "classes")
+    return tuple(
+        folder / f"{name}.{kind}"
+        for name, kind in zip(files, ("npz", "npz", "npz", "json", "npz"), strict=True)
+    )
 
 
 def free_count(mesh, folder):
@@ -70,4 +78,5 @@ def free_count(mesh, folder):
 
 def make_state(folder, **options):
     """Write a case and read it back as the state that pictures are drawn from."""
-    return read_state("case", *write_case(folder, **options), COMBINATIONS)
+    *files, classes = write_case(folder, **options)
+    return read_state("case", *files, COMBINATIONS, classes)
