@@ -8,7 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from foldshell.figures.charts import LIMIT_COLOUR, STYLE, draw_words
-from foldshell.figures.study_data import SURFACES, StudyDesign, rank_correlation
+from foldshell.figures.study_data import SURFACES, StudyDesign
+from foldshell.study.correlation import rank_correlation
 
 BINS = 10
 """Groups of equally many panels whose median is drawn."""

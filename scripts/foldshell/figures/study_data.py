@@ -145,16 +145,6 @@ def utilization_shares(values: np.ndarray, area: np.ndarray) -> np.ndarray:
     return np.bincount(number, area, len(edges) - 1) / area.sum()
 
 
-def rank_correlation(first: np.ndarray, second: np.ndarray) -> float:
-    """Return Spearman's rank correlation, nan where one of the two does not vary."""
-    from scipy.stats import rankdata
-
-    ranks = rankdata(first), rankdata(second)
-    if any(np.ptp(rank) == 0 for rank in ranks):
-        return float("nan")
-    return float(np.corrcoef(*ranks)[0, 1])
-
-
 def sort_into_columns(
     designs: Iterable[StudyDesign], comparison: Comparison
 ) -> dict[str, dict[str, StudyDesign]]:

@@ -22,7 +22,6 @@ from foldshell.figures.study_data import (
     NUMBERS,
     StudyDesign,
     pair_supports,
-    rank_correlation,
     read_summary,
     sort_into_columns,
     utilization_edges,
