@@ -49,3 +49,6 @@ use rule summary as summary_of_tag with:
         designs=lambda wildcards: summary_rows(wildcards.tag),
         results=RESULTS,
         settings=stage_parameters(SETTINGS, "study"),
+
+
+include: "claims.smk"

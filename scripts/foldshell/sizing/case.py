@@ -8,11 +8,12 @@ from typing import Any
 from foldshell.shell.analysis import AnalysisOptions, ShellModel, build_model
 from foldshell.shell.loads import Loads
 from foldshell.shell.material import Material
-from foldshell.shell.mesh_files import read_mesh
+from foldshell.shell.mesh_files import mesh_from_arrays
 from foldshell.sizing.criteria import StopRule
 from foldshell.sizing.iteration import IterationTask, LoadPlan, run_iteration
 from foldshell.sizing.step import NEED_CONSTRAINTS
 from foldshell.study.errors import InputError
+from foldshell.study.files import read_arrays
 
 
 @dataclass(frozen=True)
@@ -46,17 +47,21 @@ def open_case(mesh_path: str | Path, settings: Mapping[str, Any]) -> AnalysisCas
     InputError
         for supports that leave a mechanism.
     """
-    mesh, arrays = read_mesh(mesh_path)
-    sizing, material = settings["sizing"], Material(**settings["material"])
     try:
-        model = build_model(
-            mesh,
-            arrays["supported_nodes"],
-            material.poissons_ratio,
-            fixed_thickness=arrays.get("fixed_thickness"),
-        )
+        return make_case(read_arrays(mesh_path), settings)
     except ValueError as error:
         raise InputError(f"{mesh_path}: {error}") from None
+
+
+def make_case(arrays: Mapping[str, Any], settings: Mapping[str, Any]) -> AnalysisCase:
+    """Build the same from the arrays of mesh.npz; raises `ValueError` for such supports."""
+    sizing, material = settings["sizing"], Material(**settings["material"])
+    model = build_model(
+        mesh_from_arrays(arrays),
+        arrays["supported_nodes"],
+        material.poissons_ratio,
+        fixed_thickness=arrays.get("fixed_thickness"),
+    )
     plan = LoadPlan(Loads(**settings["loads"]), **settings["combinations"])
     asked = sizing["rule"] in NEED_CONSTRAINTS
     factor_min = sizing["thinning_buckling_factor_min"] if asked else None

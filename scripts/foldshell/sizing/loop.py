@@ -25,8 +25,7 @@ def run_loop(case: AnalysisCase, span: float, sizing: Mapping[str, Any]) -> Loop
 
     Every number equals that of the loop in files, to the last bit.
     """
-    panels = int(case.model.mesh.panel.max()) + 1
-    thickness = round_thickness(np.full(panels, sizing["start_thickness"]))
+    thickness = round_thickness(np.full(case.model.sized_panels, sizing["start_thickness"]))
     reports: list[dict[str, Any]] = []
     report: dict[str, Any] = {}
     arrays: dict[str, np.ndarray] = {}

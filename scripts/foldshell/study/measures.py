@@ -24,6 +24,11 @@ class Layout:
     support: str
 
     @property
+    def panels(self) -> int:
+        """Panels of the sheet; those of edge beams follow them."""
+        return (self.zigzag - 1) * (self.strip - 1)
+
+    @property
     def free_edge_panels(self) -> np.ndarray:
         """True for panels in the row along an edge without supports, (P,)."""
         row, column = np.indices((self.zigzag - 1, self.strip - 1))
@@ -85,6 +90,7 @@ def measure_fields(
     measure : utilization of a panel that limits hold for, panel_mean or element_max
     """
     area = np.bincount(mesh["facet_panel"], facet_areas(mesh["vertices"], mesh["facets"]))
+    area = area[: layout.panels]
     used = fields.get("utilization_panel_mean")
     result: dict[str, Any] = {"panel_area": float(area.mean())}
     result |= dict.fromkeys(("utilization_variation", "above_one", "above_one_at_free_edge"))
@@ -109,11 +115,14 @@ def measure_edge_displacement(
     if translations is None or not along.any():
         return nothing
     down = (-translations[:, 2, -count:]).max(axis=1)
-    at_edge = np.zeros(len(down), dtype=bool)
-    at_edge[mesh["elements"][along[mesh["panel"]]].ravel()] = True
+    sheet = mesh["panel"] < layout.panels
+    elements = mesh["elements"][sheet]
+    beside = along[mesh["panel"][sheet]]
+    edge = np.unique(elements[beside])
+    inner = np.setdiff1d(elements[~beside], edge)
     return {
-        "displacement_edge": float(down[at_edge].max()),
-        "displacement_inner": float(down[~at_edge].max()),
+        "displacement_edge": float(down[edge].max()),
+        "displacement_inner": float(down[inner].max()),
     }
 
 

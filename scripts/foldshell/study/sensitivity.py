@@ -31,3 +31,16 @@ def change_settings(settings: Mapping[str, Any], variant: str) -> dict[str, Any]
     sizing = {field.name: changed["sizing"][field.name] for field in fields(Sizing)}
     check_sizing(Sizing(**sizing), f"sensitivity, variant {variant}")
     return changed
+
+
+def describe_variants() -> dict[str, str]:
+    """Return what each variant changes, in words."""
+    words = {}
+    for name, groups in VARIANTS.items():
+        changes = {field: value for group in groups.values() for field, value in group.items()}
+        items = [
+            f"{field} {value}" + (" m" if isinstance(value, float) else "")
+            for field, value in changes.items()
+        ]
+        words[name] = ", ".join(items) or "the settings of the study"
+    return words

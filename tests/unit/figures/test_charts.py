@@ -27,6 +27,7 @@ from foldshell.figures.study_data import (
     utilization_edges,
     utilization_shares,
 )
+from foldshell.study.correlation import rank_correlation
 from foldshell.study.errors import InputError
 
 

@@ -9,26 +9,25 @@ from foldshell.study.claims.finding import HOLDS, Finding, judge_many
 from foldshell.study.claims.outcome import Comparer, Outcome, choose, choose_folded, state_fact
 from foldshell.study.claims.statement import Claim
 
-LOW = 0.6
-"""Mean utilization below which it counts as low: the lower limit of the paper's Table 3."""
-
 
 def judge_buckling(outcomes: Sequence[Outcome], comparer: Comparer) -> Claim:
     """C10: mean utilization is low, and loads reach the buckling factor before strength.
 
-    Strength is reached at the load factor 1 / utilization of the most utilized panel.
+    Low is below the lower limit of Table 3; strength is reached at the load factor 1 / utilization
+    of the most utilized panel.
     """
     designs = [_with_strength(one) for one in choose_folded(outcomes)]
     findings = []
     for one in designs:
-        limit = replace(one, values=one.values | {"utilization_mean": LOW}, errors=NO_ERRORS)
+        low = {"utilization_mean": comparer.utilization_min}
+        limit = replace(one, values={**one.values, **low}, errors=NO_ERRORS)
         found = comparer.compare("utilization is low", limit, one, "utilization_mean")
         findings.append(replace(found, designs=(one.name,)))
     part = "buckling before strength"
     findings += [
         comparer.compare_within(part, one, "strength_factor", "buckling_factor") for one in designs
     ]
-    return Claim("C10", findings, numbers={"held_by": count_bindings(designs)})
+    return Claim("C10", findings, numbers={"held_by": count_bindings(designs, comparer)})
 
 
 NO_ERRORS = {name: (0.0, 0.0) for name in ("displacement", "utilization", "buckling")}
@@ -38,30 +37,30 @@ def _with_strength(outcome: Outcome) -> Outcome:
     """Add the load factor at which the mean of a panel reaches the strength."""
     highest = outcome.values.get("utilization_panel_mean_max")
     return replace(
-        outcome, values=outcome.values | {"strength_factor": 1 / highest if highest else None}
+        outcome, values={**outcome.values, "strength_factor": 1 / highest if highest else None}
     )
 
 
-def count_bindings(outcomes: Sequence[Outcome]) -> dict[str, int]:
+def count_bindings(outcomes: Sequence[Outcome], comparer: Comparer) -> dict[str, int]:
     """Return how many designs stand at each limit, one design perhaps at several."""
     found: Counter[str] = Counter()
     for outcome in outcomes:
-        found.update(find_bindings(outcome))
+        found.update(find_bindings(outcome, comparer))
     return dict(sorted(found.items()))
 
 
-def find_bindings(outcome: Outcome) -> list[str]:
+def find_bindings(outcome: Outcome, comparer: Comparer) -> list[str]:
     """Return what keeps a design from being thinner: limits reached to 90 %, or least thickness."""
     values, names = outcome.values, []
     if values["displacement"] is None:
         return [values["state"]]
-    if values["displacement"] > 0.9 * outcome.row["span_m"] / values["displacement_span_over"]:
+    if values["displacement"] > 0.9 * outcome.row["span_m"] / comparer.displacement_span_over:
         names.append("displacement")
     if values["utilization_panel_mean_max"] > 0.9:
         names.append("utilization of a panel")
     if values["panels_at_bound"] == outcome.panel_count:
         names.append("least thickness in every panel")
-    if values["buckling_factor"] < 1.5:
+    if values["buckling_factor"] < comparer.buckling_factor_min:
         names.append("buckling factor")
     return names or ["none of these"]
 
@@ -104,9 +103,9 @@ def judge_folds(
         flat = flats.get(one.name)
         if flat is None:
             continue
-        other = Outcome({**one.row, "design": flat["flat"]}, flat["measures"], one.errors)
+        other = Outcome({**one.row, "design": flat["flat"]}, flat["measures"], flat["errors"])
         found = comparer.compare("less deflection when folded", other, one, "displacement")
-        stands = flat["measures"]["state"] != "unstable"
+        stands = flat["measures"]["displacement"] is not None
         findings.append(found if stands else _fallen(found, flat))
         numbers[one.name] = {name: flat[name] for name in NUMBERS}
     return Claim("C13", findings, numbers={"flat": numbers})

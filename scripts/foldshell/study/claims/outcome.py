@@ -36,6 +36,7 @@ QUANTITIES = {
     "utilization_variation": Quantity("-", "-", 1, "utilization"),
     "utilization_panel_mean_max": Quantity("-", "-", 1, "utilization"),
     "buckling_factor": Quantity("-", "-", 1, "buckling"),
+    "strength_factor": Quantity("-", "-", 1, "utilization"),
     "depth": Quantity("m", "m", 1, "geometry"),
     "panel_area": Quantity("m2", "m2", 1, "geometry"),
     "edge_strain_rms": Quantity("-", "%", 100, "geometry"),
@@ -98,9 +99,13 @@ def estimate_uncertainty(outcome: Outcome, quantity: str, volume_step: float) ->
 
 @dataclass(frozen=True)
 class Comparer:
-    """Compares outcomes; `volume_step` is the relative change of volume that ends the loop."""
+    """Compares outcomes by limits of the loop: the relative change of volume that ends it, the
+    span over the displacement allowed, least mean utilization and least buckling factor."""
 
     volume_step: float = 0.01
+    displacement_span_over: float = 240.0
+    utilization_min: float = 0.6
+    buckling_factor_min: float = 1.5
 
     def compare(
         self, part: str, greater: Outcome, lesser: Outcome, quantity: str, strict: bool = True
@@ -139,6 +144,16 @@ class Comparer:
         )
 
 
+def make_comparer(sizing: Mapping[str, Any]) -> Comparer:
+    """Return the comparer with the limits of the plain settings of the loop."""
+    return Comparer(
+        sizing["volume_change_max_relative"],
+        sizing["displacement_limit_span_over"],
+        sizing["utilization_min"],
+        sizing["thinning_buckling_factor_min"],
+    )
+
+
 def state_fact(
     part: str, design: str, quantity: str, value: float | None, limit: float, true: bool
 ) -> Finding:
@@ -163,14 +178,14 @@ def choose_folded(outcomes: Iterable[Outcome]) -> list[Outcome]:
     return choose(outcomes, pattern="miura", fold_mode="paper")
 
 
-COLUMNS = ("pattern", "surface", "span_m", "height_m", "zigzag", "strip", "support", "fold_mode")
-
-
 def group_by_others(outcomes: Iterable[Outcome], column: str) -> list[dict[Any, Outcome]]:
     """Return groups of designs that differ in one column only, {its value: outcome}, sorted."""
     groups: dict[tuple, dict[Any, Outcome]] = {}
     for outcome in outcomes:
-        others = tuple(outcome.row[name] for name in COLUMNS if name != column)
+        others = tuple(
+            value for name, value in sorted(outcome.row.items())
+            if name not in ("design", "tags", column)
+        )  # fmt: skip
         groups.setdefault(others, {})[outcome.row[column]] = outcome
     return [dict(sorted(group.items())) for group in groups.values() if len(group) > 1]
 

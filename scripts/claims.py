@@ -1,0 +1,53 @@
+"""Rule claims: each claim of the paper judged by the numbers of the study."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from foldshell.study.claims.gather import Sources, read_sources
+from foldshell.study.claims.outcome import make_comparer
+from foldshell.study.claims.study import judge_study, list_runs, write_spread
+from foldshell.study.claims.words import write_claims
+from foldshell.study.errors import user_errors
+from foldshell.study.files import atomic_path, write_json
+from foldshell.study.sensitivity import describe_variants
+from foldshell.workbook.tables import write_csv
+
+
+def main(
+    results: str | Path,
+    json_path: str | Path,
+    page_path: str | Path,
+    runs_path: str | Path,
+    *,
+    designs: Mapping[str, Sequence[Mapping[str, Any]]],
+    variants: Sequence[str],
+    settings: Mapping[str, Any],
+) -> None:
+    """Write claims.json, claims.md and the table of all runs with other settings.
+
+    `designs` has rows of designs.tsv: `sized` in full, `folds` for their folding alone, `runs`
+    with other settings (`variants`), `flats` with a flat sheet of equal volume. `settings` are
+    the plain parameters of the stage `study`.
+    """
+    found: Sources = read_sources(Path(results), designs, variants, settings)
+    claims = judge_study(*found, make_comparer(settings["sizing"]))
+    write_json(json_path, claims)
+    rows = list_runs(found.variants)
+    write_csv(runs_path, list(rows[0]) if rows else ["design", "variant"], rows)
+    spread = write_spread(found.variants, found.outcomes, describe_variants())
+    with atomic_path(page_path) as temporary:
+        temporary.write_text(write_claims(claims, spread), encoding="utf-8")
+
+
+if "snakemake" in globals():
+    with user_errors():
+        main(
+            snakemake.params.results,  # noqa: F821
+            snakemake.output.json,  # noqa: F821
+            snakemake.output.page,  # noqa: F821
+            snakemake.output.runs,  # noqa: F821
+            designs=snakemake.params.designs,  # noqa: F821
+            variants=snakemake.params.variants,  # noqa: F821
+            settings=snakemake.params.settings,  # noqa: F821
+        )

@@ -1,0 +1,42 @@
+"""Rule flat_equal: the flat sheet with the volume of material of a sized folded sheet."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from foldshell.study.errors import user_errors
+from foldshell.study.files import read_arrays, read_json, write_json
+from foldshell.study.flat_equal import analyse_flat
+from foldshell.study.measures import Layout
+
+
+def main(
+    flat_path: str | Path,
+    final_path: str | Path,
+    json_path: str | Path,
+    *,
+    flat: str,
+    layout: tuple[int, int, str],
+    span_m: float,
+    subdivisions: int,
+    settings: Mapping[str, Any],
+) -> None:
+    """Read folded.npz of the flat sheet and final.json of the folded one; write flat_equal.json.
+
+    `flat` names the flat design, `layout` its zigzag, strip and support; `settings` are the plain
+    parameters of the stage `size`.
+    """
+    volume = read_json(final_path)["volume_m3"]
+    sheet = read_arrays(flat_path)
+    found = analyse_flat(sheet, Layout(*layout), volume, span_m, subdivisions, settings)
+    write_json(json_path, {"flat": flat} | found)
+
+
+if "snakemake" in globals():
+    with user_errors():
+        main(
+            snakemake.input.flat,  # noqa: F821
+            snakemake.input.final,  # noqa: F821
+            snakemake.output.json,  # noqa: F821
+            **snakemake.params,  # noqa: F821
+        )

@@ -1,0 +1,138 @@
+"""Claims on folding: C1, C2, C3 and C14."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from foldshell.study.claims.finding import FAILS, HOLDS, Finding, judge_difference
+from foldshell.study.claims.outcome import (
+    Comparer,
+    Outcome,
+    choose,
+    choose_folded,
+    group_by_others,
+    state_fact,
+)
+from foldshell.study.claims.statement import Claim
+
+SOFT_SHAPES = {"twist", "saddle"}
+ISOMETRIC = 1e-6
+"""Residual of a bending mode, relative to the mode, up to which it costs no distortion."""
+
+RESPECTED = {
+    "rigid foldability": ("planarity_max", "edge_strain_max"),
+    "developability": ("angle_defect_max_rad",),
+    "flat foldability": ("flat_foldability_max_rad",),
+}
+RESPECTED_LIMIT = 1e-3
+"""Largest planarity (-), strain (-) and defect of angles (rad) of a sheet that can be made: paper
+and plate of a metre open by a millimetre."""
+
+
+def judge_auxetic(kinematics: Mapping[str, Any]) -> Claim:
+    """C1: in-plane ratio of finite folding steps; its uncertainty is the gap to the closed form."""
+    part = "negative in-plane Poisson's ratio"
+    findings = []
+    for row in kinematics["ratios"]:
+        gap = abs(row["in_plane"] - row["in_plane_exact"])
+        values = 0.0, row["in_plane"]
+        name = f"Miura cell folded by {row['fold_angle_deg']:.4g} deg"
+        verdict = judge_difference(*values, gap)
+        findings.append(Finding(part, (name,), "zero, in-plane ratio", "-", values, gap, verdict))
+    return Claim("C1", findings)
+
+
+def judge_soft_modes(
+    kinematics: Mapping[str, Any], outcomes: Sequence[Outcome], comparer: Comparer
+) -> Claim:
+    """C2: the two softest modes of each sheet, bending without distortion, strain of designs."""
+    findings = []
+    for sheet in kinematics["sheets"]:
+        name = f"Miura sheet {sheet['zigzag']}x{sheet['strip']}"
+        findings += _find_soft(name, sheet)
+        for shape in ("dome", "arch"):
+            values = sheet["isometry_residual"][shape], sheet["isometry_residual"]["saddle"]
+            part, verdict = f"{shape} costs distortion", judge_difference(*values, ISOMETRIC)
+            names = "isometry residual"
+            findings.append(Finding(part, (name,), names, "-", values, ISOMETRIC, verdict))
+    for group in group_by_others(choose_folded(outcomes), "surface"):
+        for surface, shape in (("paraboloid", "dome"), ("arch", "arch")):
+            if {surface, "hypar"} <= set(group):
+                pair = group[surface], group["hypar"]
+                part = f"{shape}: edges of designs strained more than the hypar's"
+                findings.append(comparer.compare(part, *pair, "edge_strain_rms"))
+    findings.sort(key=lambda finding: finding.part)
+    return Claim("C2", findings)
+
+
+def _find_soft(name: str, sheet: Mapping[str, Any]) -> list[Finding]:
+    """Return whether the two softest modes are twist and saddle, for each panel stiffness."""
+    found = []
+    for ratio in dict.fromkeys(mode["panel_over_crease"] for mode in sheet["modes"]):
+        modes = [mode for mode in sheet["modes"] if mode["panel_over_crease"] == ratio]
+        first, third = modes[:2], modes[2]["stiffness"] if len(modes) > 2 else None
+        verdict = HOLDS if {mode["shape"] for mode in first} == SOFT_SHAPES else FAILS
+        design = f"{name}, panels {ratio:g} times as stiff as creases"
+        part = "twist and saddle are the softest"
+        quantity = "stiffness over that of twist: third mode, second mode"
+        values = third, first[-1]["stiffness"]
+        found.append(Finding(part, (design,), quantity, "-", values, 0.0, verdict))
+    return found
+
+
+def judge_strengths(kinematics: Mapping[str, Any]) -> Claim:
+    """C3: self-stresses of rigid quadrilaterals; which strengths fold them, and triangles."""
+    findings = []
+    part = "quadrilaterals are over-constrained, triangles are not"
+    for sheet in kinematics["sheets"]:
+        counts = [sheet[name]["self_stresses"] for name in ("rigid_panels", "bending_panels")]
+        name = f"Miura sheet {sheet['zigzag']}x{sheet['strip']}"
+        true = counts[0] > 0 and counts[1] == 0
+        quantity = "self-stresses: quadrilaterals, triangles"
+        verdict = HOLDS if true else FAILS
+        findings.append(Finding(part, (name,), quantity, "-", tuple(counts), 0.0, verdict))
+    for surface in dict.fromkeys(row["surface"] for row in kinematics["strengths"]):
+        findings += _find_strengths(kinematics["strengths"], surface)
+    findings.sort(key=lambda finding: ORDER.index(finding.part))
+    return Claim("C3", findings)
+
+
+ORDER = (
+    "quadrilaterals are over-constrained, triangles are not",
+    "quadrilaterals fold at some strengths only",
+    "triangles fold at all strengths",
+)
+
+
+def _find_strengths(rows: Sequence[Mapping[str, Any]], surface: str) -> list[Finding]:
+    """Return the shares of the strengths at which a surface's mesh folds."""
+    found = []
+    for kind, part in zip(("quadrilaterals", "triangles"), ORDER[1:], strict=True):
+        folded = [r["folded"] for r in rows if r["surface"] == surface and r["panels"] == kind]
+        if folded:
+            share = sum(folded) / len(folded)
+            true = share == 1 if kind == "triangles" else 0 < share < 1
+            quantity = f"share of {len(folded)} settings that fold, all"
+            found.append(state_fact(part, f"{kind} on the {surface}", quantity, share, 1.0, true))
+    return found
+
+
+def judge_foldability(outcomes: Sequence[Outcome]) -> Claim:
+    """C14: planarity, strain, sum of angles and Kawasaki's sum of every folded design.
+
+    The designs folded as in the paper decide; those of the modes exact and rigid show what can be
+    had on the same targets, and stand beside the verdict.
+    """
+    findings, aside = [], []
+    for one in choose(outcomes, pattern="miura"):
+        mode = one.row["fold_mode"]
+        for name, quantities in RESPECTED.items():
+            worst = max(quantities, key=lambda quantity: one.quality[quantity])
+            value = one.quality[worst]
+            part = name if mode == "paper" else f"{name}, mode {mode}"
+            true = value <= RESPECTED_LIMIT
+            findings.append(state_fact(part, one.name, worst, value, RESPECTED_LIMIT, true))
+            if part != name and part not in aside:
+                aside.append(part)
+    order = list(dict.fromkeys(finding.part for finding in findings))
+    findings.sort(key=lambda finding: order.index(finding.part))
+    return Claim("C14", findings, open=tuple(aside))
