@@ -10,8 +10,8 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from scipy.sparse import csr_array
 
+from foldshell.shell.nodal import sum_at_nodes
 from foldshell.shell.reference import orthonormal_basis, reference_triangle, triangle_quadrature
 from foldshell.shell.stiffness import ShellOperators
 
@@ -73,35 +73,37 @@ def apply_geometric(
         flow[..., 1, :] += rs * slope[..., 0, :]
         pushed = flow.reshape(-1, 2 * points) @ tables.slope
         element[:, :, part] = pushed.reshape(3, columns, size, nodes)
-    flat = element.reshape(3 * columns, -1)
     total = np.zeros((mesh.dof_count, columns))
-    total[: 3 * len(mesh.nodes)] = (operators.gather @ flat.T).reshape(-1, columns)
+    summed = sum_at_nodes(mesh.elements, element.reshape(3 * columns, -1), len(mesh.nodes))
+    total[: 3 * len(mesh.nodes)] = summed.T.reshape(-1, columns)
     return total
 
 
-def assemble_geometric(operators: ShellOperators, force: np.ndarray) -> list[csr_array]:
-    """Return K_g of each column of N (E, 3, m, c): a matrix over nodes for x, y and z alike.
+def geometric_matrices(operators: ShellOperators, force: np.ndarray) -> np.ndarray:
+    """Return K_g of each column of N (E, 3, m, c) element by element, (c, E, n, n).
 
-    A row holds the rows of all elements at the node one after the other, columns repeated: they
-    are only multiplied by, and summing the repeated entries would cost more than it saves.
+    They act on x, y and z alike.
     """
-    elements = operators.mesh.elements
-    count, nodes = elements.shape
-    size = len(operators.mesh.nodes)
+    nodes = operators.mesh.elements.shape[1]
     tables = geometric_tables(operators.mesh.order)
-    pulled = pull_back(operators, force)
     i, j = np.divmod(np.arange(nodes**2), nodes)
     i, j = np.maximum(i, j), np.minimum(i, j)
     square = tables.product[:, i * (i + 1) // 2 + j]
-    order = operators.gather.indices
-    columns = elements[order // nodes].ravel().astype(np.int32)
-    indptr = (operators.gather.indptr * nodes).astype(np.int32)
-    matrices = []
-    for case in range(force.shape[3]):
-        values = pulled[..., case].reshape(count, -1) @ square
-        data = values.reshape(-1, nodes)[order].ravel()
-        matrices.append(csr_array((data, columns, indptr), shape=(size, size)))
-    return matrices
+    pulled = pull_back(operators, force).transpose(3, 0, 1, 2)
+    return (pulled.reshape(-1, len(square)) @ square).reshape(*pulled.shape[:2], nodes, nodes)
+
+
+def apply_geometric_matrices(
+    operators: ShellOperators, matrices: np.ndarray, moved: np.ndarray
+) -> np.ndarray:
+    """Return each K_g (c, E, n, n) times fields given as rows (r, N), (c, r, N)."""
+    elements, count = operators.mesh.elements, len(operators.mesh.nodes)
+    local = moved[:, elements].transpose(1, 0, 2)
+    result = np.empty((len(matrices), *moved.shape))
+    for case, matrix in enumerate(matrices):
+        pushed = np.matmul(local, matrix).transpose(1, 0, 2)
+        result[case] = sum_at_nodes(elements, pushed, count)
+    return result
 
 
 def pull_back(operators: ShellOperators, force: np.ndarray) -> np.ndarray:

@@ -5,13 +5,15 @@ Three bases meet in the element of `element.py`:
 - Lagrange of degree p on the lattice of equidistant nodes, for displacements;
 - an orthonormal basis of degree p - 1 (Dubiner 1991), for strains, curvatures and forces;
 - Legendre polynomials of degree up to p - 1 on an edge, for the rotation about it.
+
+Jacobi polynomials are made here, not by `scipy.special`: importing that takes longer than the
+tables do, in each of the several hundred jobs of a study.
 """
 
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from scipy.special import eval_jacobi, roots_jacobi
 
 EDGES = np.array([[0, 1], [1, 2], [2, 0]])
 """Corners of the three edges, counter-clockwise."""
@@ -91,12 +93,39 @@ def triangle_quadrature(degree: int) -> tuple[np.ndarray, np.ndarray]:
     positive.
     """
     count = degree // 2 + 1
-    x, wx = roots_jacobi(count, 0, 0)
-    y, wy = roots_jacobi(count, 1, 0)
+    x, wx = np.polynomial.legendre.leggauss(count)
+    y, wy = gauss_jacobi(count)
     s = np.repeat((1 + y) / 2, count)
     r = np.tile((1 + x) / 2, count) * (1 - s)
     weights = np.outer(wy, wx).ravel()
     return np.column_stack([r, s]), weights / weights.sum()
+
+
+def gauss_jacobi(count: int) -> tuple[np.ndarray, np.ndarray]:
+    """Return the Gauss points in (-1, 1) and weights for int (1 - y) f(y) dy, both (count,).
+
+    Eigenvalues of the recurrence of the Jacobi polynomials (1, 0) (Golub & Welsch 1969).
+    """
+    k = np.arange(1, count)
+    diagonal = -1 / ((2 * np.arange(count) + 1) * (2 * np.arange(count) + 3))
+    beside = np.sqrt(k * (k + 1)) / (2 * k + 1)
+    points, vectors = np.linalg.eigh(np.diag(diagonal) + np.diag(beside, -1))
+    return points, 2 * vectors[0] ** 2
+
+
+def jacobi(degree: int, alpha: int, x: np.ndarray) -> np.ndarray:
+    """Return the Jacobi polynomial P^(alpha, 0) of a degree at x (Abramowitz & Stegun 22.7.1)."""
+    before, current = np.zeros_like(x), np.ones_like(x)
+    for n in range(degree):
+        if n == 0:
+            following = (alpha + (alpha + 2) * x) / 2
+        else:
+            c = 2 * n + alpha
+            following = (c + 1) * ((c + 2) * c * x + alpha**2) * current
+            following -= 2 * (n + alpha) * n * (c + 2) * before
+            following /= 2 * (n + 1) * (n + alpha + 1) * c
+        before, current = current, following
+    return current
 
 
 def edge_quadrature(degree: int) -> tuple[np.ndarray, np.ndarray]:
@@ -121,9 +150,7 @@ def orthonormal_basis(degree: int, points: np.ndarray) -> np.ndarray:
     for i in range(degree + 1):
         for j in range(degree + 1 - i):
             scale = np.sqrt((2 * i + 1) * (i + j + 1))
-            columns.append(
-                scale * eval_jacobi(i, 0, 0, a) * top**i * eval_jacobi(j, 2 * i + 1, 0, b)
-            )
+            columns.append(scale * jacobi(i, 0, a) * top**i * jacobi(j, 2 * i + 1, b))
     return np.column_stack(columns)
 
 

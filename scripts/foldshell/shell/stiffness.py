@@ -3,7 +3,6 @@
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import csr_array
 
 from foldshell.shell.element import (
     ElementGeometry,
@@ -30,7 +29,7 @@ class ShellOperators:
     act on an element's deflections and edge rotations; springs of stiffness t^3 `slope_spring`
     (E, 3p) resist the jumps. `membrane` and `bending` (E, d(d+1)/2) are the packed lower triangles
     of the two stiffness matrices on global displacements, node by node, and rotations; `dofs`
-    (E, d) are their numbers. `gather` (N, E n) sums element values at the nodes.
+    (E, d) are their numbers.
     """
 
     mesh: ShellMesh
@@ -43,7 +42,6 @@ class ShellOperators:
     membrane: np.ndarray
     bending: np.ndarray
     dofs: np.ndarray
-    gather: csr_array
 
 
 def build_operators(mesh: ShellMesh, poissons_ratio: float) -> ShellOperators:
@@ -69,7 +67,6 @@ def build_operators(mesh: ShellMesh, poissons_ratio: float) -> ShellOperators:
         membrane=_packed_membrane(mesh.order, axes, elasticity, geometry.area),
         bending=_packed_bending(curvature, jump, spring, elasticity, geometry),
         dofs=element_dofs(mesh),
-        gather=_gather_matrix(mesh),
     )
 
 
@@ -100,14 +97,6 @@ def _strain_axes(geometry: ElementGeometry) -> np.ndarray:
     shear = geometry.inverse[:, :, 1, None] * geometry.frame[:, None, 0]
     shear = shear + geometry.inverse[:, :, 0, None] * geometry.frame[:, None, 1]
     return np.stack([along[:, :, 0], along[:, :, 1], shear], axis=1)
-
-
-def _gather_matrix(mesh: ShellMesh) -> csr_array:
-    """Return the matrix of ones (N, E n) that sums element values at their nodes."""
-    nodes = mesh.elements.ravel()
-    indptr = np.concatenate([[0], np.cumsum(np.bincount(nodes, minlength=len(mesh.nodes)))])
-    order = np.argsort(nodes, kind="stable")
-    return csr_array((np.ones(len(nodes)), order, indptr), (len(mesh.nodes), len(nodes)))
 
 
 def _packed_membrane(

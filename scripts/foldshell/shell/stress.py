@@ -8,6 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from foldshell.shell.nodal import sum_at_nodes
 from foldshell.shell.reference import orthonormal_basis, reference_triangle
 from foldshell.shell.stiffness import ShellOperators
 
@@ -93,8 +94,9 @@ def gather_nodes(operators: ShellOperators, element: np.ndarray) -> np.ndarray:
     """Sum element node forces (E, n, 3, c) into global ones (dofs, c)."""
     columns, mesh = element.shape[3], operators.mesh
     total = np.zeros((mesh.dof_count, columns))
-    summed = operators.gather @ element.reshape(-1, 3 * columns)
-    total[: 3 * len(mesh.nodes)] = summed.reshape(-1, columns)
+    rows = element.transpose(2, 3, 0, 1).reshape(3 * columns, -1)
+    summed = sum_at_nodes(mesh.elements, rows, len(mesh.nodes))
+    total[: 3 * len(mesh.nodes)] = summed.T.reshape(-1, columns)
     return total
 
 

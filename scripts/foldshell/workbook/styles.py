@@ -1,16 +1,19 @@
 """The look of every workbook, defined once: named formats, print set-up, header and units rows."""
 
+from __future__ import annotations
+
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
-
-import xlsxwriter
-from xlsxwriter.format import Format
-from xlsxwriter.worksheet import Worksheet
+from typing import TYPE_CHECKING, Any
 
 from foldshell.study.files import atomic_path
+
+if TYPE_CHECKING:
+    import xlsxwriter
+    from xlsxwriter.format import Format
+    from xlsxwriter.worksheet import Worksheet
 
 # A fixed date: the same values give the same bytes.
 _CREATED = datetime(2000, 1, 1, tzinfo=UTC).replace(tzinfo=None)
@@ -123,6 +126,8 @@ def create_workbook(path: str | Path, title: str) -> Iterator[tuple[xlsxwriter.W
 
     Texts stay texts, also those that begin with "=" or look like numbers or links.
     """
+    import xlsxwriter
+
     options = {
         "in_memory": True,
         "strings_to_formulas": False,

@@ -1,6 +1,9 @@
 """Polynomials on the reference triangle against exact integrals and differences."""
 
+import subprocess
+import sys
 from math import factorial
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -8,6 +11,8 @@ import pytest
 from foldshell.shell.reference import (
     edge_basis,
     edge_quadrature,
+    gauss_jacobi,
+    jacobi,
     lagrange_basis,
     lattice_points,
     orthonormal_basis,
@@ -103,3 +108,28 @@ def test_edge_basis_is_legendre():
 def test_order_out_of_range_is_refused():
     with pytest.raises(ValueError, match="element order 9"):
         reference_triangle(9)
+
+
+def test_jacobi_polynomials_and_gauss_points_are_those_of_scipy():
+    """Independent code; both follow recurrences, so a few roundings are between them."""
+    from scipy.special import eval_jacobi, roots_jacobi
+
+    x = np.linspace(-1, 1, 41)
+    for alpha in (0, 1, 7, 15):
+        for degree in range(9):
+            exact = eval_jacobi(degree, alpha, 0, x)
+            assert jacobi(degree, alpha, x) == pytest.approx(exact, abs=1e-13 * abs(exact).max())
+    for count in (1, 2, 5, 13):
+        assert np.array(gauss_jacobi(count)) == pytest.approx(
+            np.array(roots_jacobi(count, 1, 0)), abs=1e-14
+        )
+
+
+def test_an_analysis_does_not_import_scipy():
+    """It would take longer than a small analysis itself, in several hundred jobs of a study."""
+    code = "import sys, analyse; print([name for name in sys.modules if name.startswith('scipy')])"
+    scripts = Path(__file__).parents[3] / "scripts"
+    found = subprocess.run(
+        [sys.executable, "-c", code], cwd=scripts, capture_output=True, text=True, check=True
+    )
+    assert found.stdout.strip() == "[]"
