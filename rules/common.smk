@@ -22,12 +22,23 @@ def library(script):
     return library_files(f"{SCRIPTS}/{script}.py", SCRIPTS)
 
 
+def assets(*names):
+    """Return files of the pages, as inputs of a rule: they are read, not imported."""
+    return [f"{SCRIPTS}/foldshell/report/{name}" for name in names]
+
+
 def of_design(*columns):
     """Return a function of the wildcards that gives columns of designs.tsv as parameters."""
     return {
         column: (lambda wildcards, column=column: BY_NAME[wildcards.design].to_row()[column])
         for column in columns
     }
+
+
+def edge_beam(wildcards):
+    """Return depth and thickness (m) of a design's edge beam, 0 for none."""
+    design = BY_NAME[wildcards.design]
+    return [design.edge_beam_depth, design.edge_beam_thickness]
 
 
 def of_stage(stage):
@@ -95,7 +106,7 @@ def names_of_tag(tag):
 
 def study_files(tag):
     """Return what is made of every design with a tag."""
-    files = ["design.xlsx", "design.vtu", "crosscheck/comparison.json"]
+    files = ["design.xlsx", "design.vtu", "crosscheck/comparison.json", "page.html"]
     files += [f"figures/{name}.png" for name in PICTURES]
     true_pattern = [f"pattern/true_pattern.{kind}" for kind in ("fold", "dxf", "svg")]
     return [

@@ -30,6 +30,7 @@ rule refine:
         primary=f"{RESULTS}/{{design}}/crosscheck/primary.json",
     params:
         **of_design("support"),
+        edge_beam=edge_beam,
         subdivisions=subdivisions,
         settings=of_stage("crosscheck"),
     conda:

@@ -9,6 +9,7 @@ rule mesh:
         vtu=f"{RESULTS}/{{design}}/shell/mesh.vtu",
     params:
         **of_design("support"),
+        edge_beam=edge_beam,
         subdivisions=subdivisions,
     conda:
         "../envs/foldshell.yaml"

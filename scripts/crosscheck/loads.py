@@ -17,7 +17,7 @@ def compute_surface_loads(model: Model, normal: np.ndarray) -> np.ndarray:
 
     `normal` (F, 3) are the facets' unit normals. The dead load presses at right angles to the
     facet: on the side that faces up (`downward`), or on the sheet's upper side (`sheet`), which
-    differs where a facet overhangs.
+    differs where a facet overhangs. Facets of `bare` panels carry their own weight only.
     """
     loads = model.loads
     share = np.abs(normal[:, 2]) if loads.area_basis == "plan" else np.ones(len(normal))
@@ -29,6 +29,7 @@ def compute_surface_loads(model: Model, normal: np.ndarray) -> np.ndarray:
     surface[:, 2, 2] = -loads.live * share
     surface[:, 0, 3] = wind
     surface[:, 1, 4] = wind
+    surface[model.bare, :, 1:] = 0
     return surface
 
 

@@ -1,6 +1,6 @@
 """The neutral model file: what it must hold, and its values as arrays."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
@@ -8,7 +8,8 @@ import numpy as np
 
 from crosscheck.reading import Place, read_json
 
-FORMAT = "foldshell-neutral-model 1"
+FORMATS = ("foldshell-neutral-model 1", "foldshell-neutral-model 2")
+"""The second may name panels that carry their own weight only."""
 CASES = ("SW", "SDL", "LL", "WX", "WY")
 CRITERIA = ("von_mises", "rankine", "drucker_prager")
 
@@ -51,11 +52,17 @@ class Model:
     loads: Loads
     combinations: dict[str, dict[str, float]]
     compared: dict[str, str]  # strength and deflection: a combination each
+    bare_panels: np.ndarray = field(default_factory=lambda: np.empty(0, int))  # own weight only
 
     @property
     def thickness(self) -> np.ndarray:
         """Thickness of each facet: (F,) in m."""
         return self.panel_thickness[self.facet_panel]
+
+    @property
+    def bare(self) -> np.ndarray:
+        """Whether each facet carries its own weight only: (F,)."""
+        return np.isin(self.facet_panel, self.bare_panels)
 
     @property
     def compared_combinations(self) -> dict[str, dict[str, float]]:
@@ -66,7 +73,7 @@ class Model:
 def read_model(path: str | Path) -> Model:
     """Read and check a neutral model file; raises CrosscheckError naming file, place and value."""
     root = Place(Path(path).name, "", read_json(path))
-    root.key("format").one_of([FORMAT])
+    format_name = root.key("format").one_of(list(FORMATS))
     vertices = root.key("vertices_m").numbers(3)
     facets = root.key("facets").indices(3, len(vertices))
     thickness = root.key("panel_thickness_m").numbers(None, above=0.0)
@@ -90,7 +97,14 @@ def read_model(path: str | Path) -> Model:
         loads=_read_loads(root),
         combinations=combinations,
         compared=compared,
+        bare_panels=_read_bare_panels(root, format_name, len(thickness)),
     )
+
+
+def _read_bare_panels(root: Place, format_name: str, panels: int) -> np.ndarray:
+    if format_name == FORMATS[0]:
+        return np.empty(0, dtype=int)
+    return root.key("self_weight_only_panels").indices(None, panels)
 
 
 def _check_facets(

@@ -37,12 +37,14 @@ def cell_fields(state: DesignState, elasticity: Elasticity) -> dict[str, np.ndar
         "thickness": cell_thickness(state),
     }
     if state.classes:
-        panel_class = state.classes["panel_class"][state.cell_panel]
-        fields["thickness_class"] = panel_class.astype(np.int32)
-        fields["class_thickness"] = state.classes["thickness"][state.cell_panel]
+        strips = state.strip_thickness
+        number = np.append(state.classes["panel_class"], np.zeros(len(strips), dtype=int))
+        thickness = np.append(state.classes["thickness"], strips)
+        fields["thickness_class"] = number[state.cell_panel].astype(np.int32)
+        fields["class_thickness"] = thickness[state.cell_panel]
     if state.utilization is not None:
         fields["utilization"] = state.utilization
-        fields["utilization_panel_mean"] = state.final["utilization_panel_mean"][state.cell_panel]
+        fields["utilization_panel_mean"] = state.panel_utilization[state.cell_panel]
         governing = state.final["governing_combination"].ravel() + 1
         fields["governing_combination"] = governing.astype(np.int32)
     if state.usable:

@@ -7,6 +7,9 @@ import numpy as np
 
 FORMAT = "foldshell-neutral-model 1"
 
+EDGE_BEAM_FORMAT = "foldshell-neutral-model 2"
+"""Format 1, and `self_weight_only_panels`: who does not know those must not read such a file."""
+
 
 def make_neutral_model(
     design: str,
@@ -19,23 +22,28 @@ def make_neutral_model(
     Facets are flat triangles, counter-clockwise seen from above; every mesh node on a supported
     edge is pinned (translations only). The superimposed dead load acts against the normal of the
     sheet, also where a facet overhangs (`dead_side`). No finite element mesh is given: the reader
-    makes its own.
+    makes its own. The strips of an edge beam are panels of fixed thickness, the last ones; they
+    are listed as `self_weight_only_panels`, on which no other load acts.
 
     Parameters
     ----------
     mesh : arrays of mesh.npz
-    panel_thickness : (P,) m
+    panel_thickness : (P,) m, of the sized panels
     settings : plain parameters of the stage `crosscheck`
     """
     material, loads = settings["material"], settings["loads"]
     groups, compare = settings["combinations"], settings["crosscheck"]
+    fixed = mesh.get("fixed_thickness", np.empty(0))
+    sized = len(panel_thickness)
+    bare = {"self_weight_only_panels": list(range(sized, sized + len(fixed)))}
     return {
-        "format": FORMAT,
+        "format": EDGE_BEAM_FORMAT if len(fixed) else FORMAT,
         "design": design,
         "vertices_m": mesh["vertices"].tolist(),
         "facets": mesh["facets"].tolist(),
         "facet_panel": mesh["facet_panel"].tolist(),
-        "panel_thickness_m": panel_thickness.tolist(),
+        "panel_thickness_m": [*panel_thickness.tolist(), *fixed.tolist()],
+        **(bare if len(fixed) else {}),
         "supported_edges": mesh["support_pairs"].tolist(),
         "material": {
             "youngs_modulus_kpa": material["youngs_modulus"],

@@ -39,7 +39,7 @@ def make_tile(subject: Subject) -> Tile:
     lines = tuple(replace(line, width=0.45 * line.width) for line in lines)
     blank = np.tile(np.array(MISSING, dtype=np.uint8), (len(state.triangles), 1))
     scene = Scene(state.cells.nodes, state.triangles, blank, lines, *support_marks(subject))
-    thickness = 1e3 * state.final["thickness"][state.cell_panel]
+    thickness = 1e3 * state.panel_thickness[state.cell_panel]
     verdict = str(state.report.get("verdict")).replace("_", " ")
     return Tile(state.name, verdict, scene, thickness, state.utilization)
 

@@ -12,7 +12,7 @@ from foldshell.shell.stress import cell_points, membrane_forces
 
 def cell_thickness(state: DesignState) -> np.ndarray:
     """Return the thickness of each cell's panel, (C,) m."""
-    return state.final["thickness"][state.cell_panel]
+    return state.panel_thickness[state.cell_panel]
 
 
 def cell_area(state: DesignState) -> np.ndarray:
@@ -48,7 +48,7 @@ def membrane_force_coefficients(
     operators = build_operators(mesh, poissons_ratio)
     column = state.combinations.index(combination)
     displacement = state.final["displacement"][:, column : column + 1]
-    thickness = state.final["thickness"][mesh.panel]
+    thickness = state.panel_thickness[mesh.panel]
     force = membrane_forces(operators, displacement, thickness, youngs_modulus)
     return force[..., 0], operators.geometry
 

@@ -21,6 +21,7 @@ from foldshell.figures.isolines import find_region_border
 from foldshell.figures.layout import INK, Key, compose, view_size
 from foldshell.figures.render import render_scenes
 from foldshell.figures.scene import LIFT, Lines
+from foldshell.figures.state import DesignState
 
 DISPLACED_SHARE = 0.06
 """The largest displacement is drawn about this share of the span long."""
@@ -56,17 +57,23 @@ def _aim(draft: Draft, view: tuple[int, int]) -> Camera:
 def draft_thickness(subject: Subject) -> Draft:
     """Panels coloured by thickness."""
     state = subject.state
-    values = 1e3 * state.final["thickness"]
+    values, panels = 1e3 * state.panel_thickness, 1e3 * state.final["thickness"]
     scale = make_scale(values, "YlGnBu")
     volume, area = state.report["volume_m3"], state.report["area_m2"]
-    least, most = (f"{value:.0f}" for value in (values.min(), values.max()))
+    least, most = (f"{value:.0f}" for value in (panels.min(), panels.max()))
     facts = (
-        f"{least if least == most else f'{least} to {most}'} mm; volume {volume:.4g} m³, "
-        f"{1e3 * volume / area:.0f} mm on average"
+        f"{least if least == most else f'{least} to {most}'} mm{_describe_strips(state)}; "
+        f"volume {volume:.4g} m³, {1e3 * volume / area:.0f} mm on average"
     )
     return draft_field(
         subject, "Thickness", facts, "thickness [mm]", values[state.cell_panel], scale
     )
+
+
+def _describe_strips(state: DesignState) -> str:
+    """Return the thickness of the edge beam in words, nothing where there is none."""
+    strips = 1e3 * state.strip_thickness
+    return f", edge beam {strips.max():.0f} mm" if len(strips) else ""
 
 
 def draft_classes(subject: Subject) -> Draft:
@@ -75,11 +82,12 @@ def draft_classes(subject: Subject) -> Draft:
     if not state.classes:
         return draft_nothing(subject, "Thickness classes", "no thickness classes")
     number = state.classes["panel_class"]
-    values = 1e3 * state.classes["thickness"]
+    panels = 1e3 * state.classes["thickness"]
     words = [
-        f"{k}: {values[number == k].max():.1f} mm in {(number == k).sum()} panels"
+        f"{k}: {panels[number == k].max():.1f} mm in {(number == k).sum()} panels"
         for k in np.unique(number)
     ]
+    values = np.append(panels, 1e3 * state.strip_thickness)
     scale = make_scale(np.append(values, 1e3 * state.final["thickness"]), "YlGnBu")
     title, quantity = "Thickness classes", "thickness of the class [mm]"
     return draft_field(subject, title, "; ".join(words), quantity, values[state.cell_panel], scale)
@@ -97,6 +105,8 @@ def draft_utilization(subject: Subject) -> Draft:
         f"panel mean at most {report['utilization_panel_mean_max']:.2f}; pointwise 99 % of the "
         f"area at most {report['utilization_p99']:.2f}, mean {report['utilization_mean']:.2f}"
     )
+    if len(state.strip_thickness):
+        facts += f"; edge beam at most {report['edge_beam_utilization_max']:.2f}"
     words = f"utilization [-], largest of {state.strength[0]} to {state.strength[-1]}"
     if scale.limit is None:
         words += f" ({limit:g} is not reached)"
@@ -139,6 +149,7 @@ def draft_planarity(subject: Subject) -> Draft:
     state = subject.state
     values = 100 * state.folded["planarity"]
     facts = f"at most {values.max():.2f} %, mean {values.mean():.2f} % (0: panel is planar)"
+    values = np.append(values, np.zeros_like(state.strip_thickness))
     quantity = "distance of diagonals / their mean length [%]"
     scale = make_scale(values, zero=True, least=RATIO_RANGE_MIN)
     return draft_field(subject, "Planarity", facts, quantity, values[state.cell_panel], scale)
@@ -151,6 +162,7 @@ def draft_strain(subject: Subject) -> Draft:
         return draft_nothing(subject, "Folding strain", "no strain of the folding")
     values = 100 * state.folded["strain"]
     facts = f"at most {values.max():.2f} %, mean {values.mean():.2f} % (0: sides keep their length)"
+    values = np.append(values, np.zeros(2 * len(state.strip_thickness)))
     quantity = "largest change of a facet's sides / flat length [%]"
     scale = make_scale(values, "cividis", zero=True, least=RATIO_RANGE_MIN)
     cells = np.repeat(values[state.mesh.facet], state.cells.order**2)

@@ -25,7 +25,8 @@ class DesignState:
     `mesh` is the shell mesh, `cells` the linear mesh of its result cells and `triangles`
     (C, 3) those cells; `shell`, `folded`, `final` hold the arrays of mesh.npz, folded.npz,
     final.npz and `report` is final.json. `strength` and `deflection` name the combinations in
-    the order of the displacement columns. `classes` hold the arrays of sizing/classes.npz.
+    the order of the displacement columns. `classes` hold the arrays of sizing/classes.npz. Values
+    of panels (P,) go before those of the edge beam's strips (B,), which have panels of their own.
     """
 
     name: str
@@ -44,6 +45,22 @@ class DesignState:
     def combinations(self) -> tuple[str, ...]:
         """All combinations, strength first."""
         return self.strength + self.deflection
+
+    @property
+    def strip_thickness(self) -> np.ndarray:
+        """Thickness of the edge beam's strips, (B,) m; empty where there is none."""
+        return self.shell.get("fixed_thickness", np.empty(0))
+
+    @property
+    def panel_thickness(self) -> np.ndarray:
+        """Thickness of panels and strips, (P + B,) m."""
+        return np.concatenate([self.final["thickness"], self.strip_thickness])
+
+    @property
+    def panel_utilization(self) -> np.ndarray:
+        """Mean utilization of panels and strips, (P + B,)."""
+        strips = self.final.get("edge_beam_utilization_panel_mean", np.empty(0))
+        return np.concatenate([self.final["utilization_panel_mean"], strips])
 
     @property
     def cell_panel(self) -> np.ndarray:
@@ -102,7 +119,7 @@ def read_state(
     """
     mesh, shell = read_mesh(mesh_path)
     final = read_arrays(final_path)
-    panels = int(mesh.panel.max()) + 1
+    panels = int(mesh.panel.max()) + 1 - len(shell.get("fixed_thickness", ()))
     if final["thickness"].shape != (panels,):
         raise InputError(
             f"{final_path}: thickness: {final['thickness'].shape}: one for each of {panels} panels"

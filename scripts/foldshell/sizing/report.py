@@ -31,6 +31,11 @@ HEADLINES = (
     "dofs",
     "mesh_subdivisions",
 )
+EDGE_BEAM = (
+    "edge_beam_volume_m3",
+    "edge_beam_utilization_max",
+    "edge_beam_utilization_panel_mean_max",
+)
 
 
 def make_design_report(
@@ -48,11 +53,12 @@ def make_design_report(
     """
     last = iterations.analyses[-1]
     verdict = {
-        **design,
+        **{name: value for name, value in design.items() if value or "edge_beam" not in name},
         "verdict": last["verdict"],
         "reason": last["reason"],
         "iterations": len(iterations.analyses),
         **{name: last.get(name) for name in HEADLINES},
+        **{name: last[name] for name in EDGE_BEAM if name in last},
         "buckling_factor_min": find_least_factor(last),
         **_summarise_classes(grouped),
         "settings_hash": settings_hash,

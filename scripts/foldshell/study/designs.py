@@ -28,6 +28,8 @@ COLUMNS = (
     "strip",
     "support",
     "fold_mode",
+    "edge_beam_depth_m",
+    "edge_beam_thickness_m",
     "tags",
 )
 # Names under results/ that are not designs, and device names that Windows cannot create.
@@ -39,7 +41,8 @@ _DESIGNS_MAX = 10_000
 
 @dataclass(frozen=True)
 class Design:
-    """One design of the study; span and height in m, zigzag and strip are counts of polylines."""
+    """One design of the study; lengths in m, zigzag and strip are counts of polylines, both sizes
+    of the edge beam are 0 where there is none."""
 
     name: str
     pattern: str
@@ -50,6 +53,8 @@ class Design:
     strip: int
     support: str
     fold_mode: str
+    edge_beam_depth: float
+    edge_beam_thickness: float
     tags: tuple[str, ...]
 
     @property
@@ -59,9 +64,8 @@ class Design:
 
     def to_row(self) -> dict[str, Any]:
         """Return the design as a plain row with the columns of designs.tsv."""
-        names = {"design": self.name, "span_m": self.span, "height_m": self.height}
-        row = {column: names.get(column, getattr(self, column, None)) for column in COLUMNS}
-        return {**row, "tags": ",".join(self.tags)}
+        row = {column: getattr(self, column.removesuffix("_m"), None) for column in COLUMNS}
+        return {**row, "design": self.name, "tags": ",".join(self.tags)}
 
 
 @functools.cache
@@ -142,12 +146,8 @@ def _check_header(header: list[str], place: str) -> None:
 
 def _default_row(settings: Settings) -> dict[str, Any]:
     defaults = settings.defaults
-    names = {"span_m": defaults.span, "height_m": defaults.height, "tags": ""}
-    return {
-        column: names.get(column, getattr(defaults, column, None))
-        for column in COLUMNS
-        if column != "design"
-    }
+    row = {column: getattr(defaults, column.removesuffix("_m"), None) for column in COLUMNS[1:]}
+    return {**row, "tags": ""}
 
 
 def _make_design(
@@ -161,6 +161,7 @@ def _make_design(
     validate(row, designs_schema(), where)
     _check_name(row["design"], where)
     _check_surface(row["surface"], where)
+    _check_edge_beam(row, where)
     values = convert_units({key: row[key] for key in COLUMNS if key not in ("design", "tags")})
     tags = tuple(tag.strip() for tag in row["tags"].split(",") if tag.strip())
     design = Design(name=row["design"], tags=tuple(dict.fromkeys(tags)), **values)
@@ -208,6 +209,21 @@ def _check_surface(surface: str, where: str) -> None:
         f"{where}: surface: {surface!r}: one of {', '.join(SURFACES)} or a mesh file "
         f"({', '.join(SURFACE_FILES)}) is allowed{hint}"
     )
+
+
+def _check_edge_beam(row: Mapping[str, Any], where: str) -> None:
+    depth, thickness = row["edge_beam_depth_m"], row["edge_beam_thickness_m"]
+    if bool(depth) != bool(thickness):
+        given, missing = ("depth", "thickness") if depth else ("thickness", "depth")
+        raise InputError(
+            f"{where}: edge_beam_{missing}_m: 0 beside edge_beam_{given}_m = "
+            f"{depth or thickness:g}: both above 0 are allowed, or none"
+        )
+    if depth and row["support"] == "all":
+        raise InputError(
+            f"{where}: edge_beam_depth_m: {depth:g}: with support all no border is free to carry "
+            "an edge beam: 0 is allowed"
+        )
 
 
 def _check_unique(designs: list[Design], lines: list[int], path: Path) -> None:

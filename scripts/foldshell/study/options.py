@@ -23,6 +23,8 @@ class Defaults:
     strip: int
     support: str
     fold_mode: str
+    edge_beam_depth: float
+    edge_beam_thickness: float
 
 
 @dataclass(frozen=True)

@@ -32,9 +32,15 @@ SUMMARY_KEYS = (
     "crosscheck",
     "settings_hash",
     "reason",
+    "edge_beam_depth_m",
+    "edge_beam_thickness_m",
+    "edge_beam_volume_m3",
+    "edge_beam_utilization_max",
 )
+_EDGE_BEAM_SIZES = ("edge_beam_depth_m", "edge_beam_thickness_m")
 _ITERATIONS_MAX = 100
 _COPIED = ("volume_m3", "utilization_max", "utilization_p99", "utilization_mean")
+_COPIED += ("edge_beam_volume_m3", "edge_beam_utilization_max")
 
 
 def make_summary_row(
@@ -53,6 +59,7 @@ def make_summary_row(
     analyses = _read_analyses(folder, problems)
     last = analyses[-1] if analyses else {}
     row: dict[str, Any] = {key: design.get(key) for key in SUMMARY_KEYS}
+    row |= {key: design.get(key) or None for key in _EDGE_BEAM_SIZES}
     row |= {key: last.get(key) for key in _COPIED}
     row["displacement_vertical_max_m"] = last.get("displacement_vertical_max_m")
     row["iterations"] = len(analyses) or None

@@ -31,6 +31,9 @@ HISTORY_KEYS = (
     "reaction_imbalance",
     "reason",
 )
+EDGE_BEAM_KEYS = ("edge_beam_utilization_max", "edge_beam_utilization_panel_mean_max")
+"""Columns after `reason` where a design has an edge beam."""
+
 _CHARTS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     ("Volume", "m3", ("volume_m3",)),
     ("Utilization", "-", ("utilization_max", "utilization_p99", "utilization_panel_mean_max")),
@@ -61,6 +64,7 @@ def make_history(
     rows: list[dict[str, Any]] = []
     for index, analysis in enumerate(analyses):
         row = {key: analysis.get(key) for key in HISTORY_KEYS}
+        row |= {key: analysis[key] for key in EDGE_BEAM_KEYS if key in analysis}
         before = rows[-1]["volume_m3"] if rows else None
         if before is not None and row["volume_m3"] is not None:
             row["volume_change_m3"] = row["volume_m3"] - before
@@ -83,9 +87,14 @@ def _largest(value: Any) -> Any:
     return value
 
 
+def choose_keys(rows: Sequence[Row]) -> tuple[str, ...]:
+    """Return the columns of a history: those of the edge beam only where some row has them."""
+    return HISTORY_KEYS + tuple(key for key in EDGE_BEAM_KEYS if any(key in row for row in rows))
+
+
 def write_history_csv(path: str | Path, rows: Sequence[Row]) -> None:
     """Write `history.csv`."""
-    write_csv(path, HISTORY_KEYS, rows)
+    write_csv(path, choose_keys(rows), rows)
 
 
 def write_history(
@@ -110,10 +119,10 @@ def add_history_sheets(
 ) -> None:
     """Add the sheets `history` and `charts` to a workbook."""
     sheet = add_sheet(book, "history")
-    first = write_table(sheet, styles, 0, make_columns(HISTORY_KEYS), rows, upright=True)
+    keys = choose_keys(rows)
+    first = write_table(sheet, styles, 0, make_columns(keys), rows, upright=True)
     last = first + max(len(rows), 1) - 1
-    for key in ("utilization_max", "utilization_p99", "utilization_panel_mean_max"):
-        column = HISTORY_KEYS.index(key)
+    for column in (number for number, key in enumerate(keys) if "utilization" in key):
         mark_above(sheet, styles, (first, column, last, column), utilization_max)
     charts = add_sheet(book, "charts")
     charts.fit_to_pages(1, 1)

@@ -40,17 +40,17 @@ _INTEGERS = (
 )
 _TEXTS = {
     "design": 34.0,
-    "tags": 24.0,
+    "tags": 36.0,
     "reason": 50.0,
     "settings_hash": 14.0,
-    "state": 18.0,
-    "verdict": 18.0,
+    "state": 24.0,
+    "verdict": 24.0,
     "note": 40.0,
     "name": 26.0,
     "value": 60.0,
     "setting": 36.0,
 }
-_CHANGES = ("change", "volume_change_relative", "mesh_error")
+_CHANGES = ("change", "volume_change_relative")
 _TEXT_KEYS = ("pattern", "surface", "support", "fold_mode", "crosscheck", "edited", "met", "source")
 
 
@@ -64,11 +64,13 @@ def make_column(key: str) -> Column:
         return Column(key, "", "text", _TEXTS.get(key, 11.0))
     if key in _INTEGERS:
         return Column(key, "-", "integer", width)
+    if key == "mesh_error":
+        return Column(key, "-", "percent", width)
     if key in _CHANGES:
         return Column(key, "-", "change", width)
     if key.startswith(("reaction_", "imbalance")):
         return Column(key, "-", "scientific", width)
-    if key in ("span_m", "height_m"):
+    if key in ("span_m", "height_m", "edge_beam_depth_m", "edge_beam_thickness_m"):
         return Column(key, unit, "general", width)
     return Column(key, unit, "metre" if unit == "m" else "decimal", width)
 

@@ -16,7 +16,7 @@ from foldshell.study.stages import choose_subdivisions
 
 SETTINGS = make_settings({})
 HEADER = "\t".join(COLUMNS)
-GOOD = "a\tmiura\tarch\t28\t10\t15\t16\tall\tpaper\tx,y"
+GOOD = "a\tmiura\tarch\t28\t10\t15\t16\tstrip\tpaper\t0.5\t0.15\tx,y"
 
 
 def read(tmp_path, text: str | bytes):
@@ -94,6 +94,14 @@ def test_left_out_columns_and_empty_cells_take_defaults(tmp_path):
     assert (second.height, second.panels) == (5.0, 14 * 15)
 
 
+def test_an_edge_beam_has_both_sizes_or_none(tmp_path):
+    second_row = GOOD.replace("a", "b", 1).replace("0.5\t0.15", "\t")
+    first, second = read(tmp_path, f"{HEADER}\n{GOOD}\n{second_row}\n")
+    assert (first.edge_beam_depth, first.edge_beam_thickness) == (0.5, 0.15)
+    assert (second.edge_beam_depth, second.edge_beam_thickness) == (0.0, 0.0)
+    assert first.to_row()["edge_beam_thickness_m"] == 0.15
+
+
 def test_remarks_blank_lines_windows_lines_and_order_of_columns(tmp_path):
     text = "\ufeff# remark\r\n\r\nspan_m\tdesign\ttags\r\n5.5\tb\tx, y,x\r\n28\ta\t\r\n"
     first, second = read(tmp_path, text)
@@ -165,6 +173,13 @@ def cell(column: str, value: str) -> str:
         (cell("strip", "1001"), "at most 1000"),
         (cell("support", "edges"), "one of all, zigzag, strip"),
         (cell("fold_mode", "papper"), "the nearest is paper"),
+        (cell("edge_beam_depth_m", "0.01"), "edge_beam_depth_m: 0.01: 0 for none or a number in m"),
+        (cell("edge_beam_depth_m", "6"), "0.05 to 5 is allowed"),
+        (cell("edge_beam_thickness_m", "-1"), "0.02 to 2 is allowed"),
+        (cell("edge_beam_thickness_m", "0,15"), "write 0.15 with a decimal point"),
+        (cell("edge_beam_thickness_m", ""), "edge_beam_thickness_m: 0 beside edge_beam_depth_m"),
+        (cell("edge_beam_depth_m", "0"), "both above 0 are allowed, or none"),
+        (cell("support", "all"), "no border is free to carry an edge beam"),
         (cell("tags", "x;y"), "with commas between"),
         (cell("tags", "x,,y"), "with commas between"),
         (cell("tags", "../x"), "with commas between"),
