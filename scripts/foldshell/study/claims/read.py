@@ -69,17 +69,17 @@ def read_variant(outcome: Outcome, report: Mapping[str, Any]) -> Outcome:
 def read_errors(folder: Path, chosen: Mapping[str, Any]) -> Errors:
     """Read relative mesh error and cross-check difference of the compared combinations."""
     study = read_json(folder / "mesh_study.json")
-    comparison = read_json(folder / "crosscheck/comparison.json")["quantities"]
+    comparison = read_json(folder / "crosscheck/comparison.json").get("quantities") or {}
     strength, deflection = chosen["strength"], chosen["deflection"]
 
     def pick(combination: str, quantity: str) -> tuple[float | None, float | None]:
         names = f"{combination} Th.II {quantity}", f"{combination} {quantity}"
         found = next((comparison[name] for name in names if name in comparison), {})
-        difference = found.get("relative_difference")
-        error = study["errors"].get(combination, {}).get(quantity)
-        if quantity == "buckling_factor" and error is None:
-            error = _relative(study["study"]["combinations"][combination].get(quantity))
-        return error, difference
+        own = (study.get("errors") or {}).get(combination, {})
+        error = own.get(quantity)
+        if error is None and found:
+            error = _relative(found["primary_meshes"][0], found["primary"])
+        return error, found.get("relative_difference")
 
     return {
         "displacement": pick(deflection, "displacement_down_max_m"),
@@ -88,5 +88,5 @@ def read_errors(folder: Path, chosen: Mapping[str, Any]) -> Errors:
     }
 
 
-def _relative(values: list[float] | None) -> float | None:
-    return abs(values[0] - values[1]) / abs(values[1]) if values else None
+def _relative(value: float, limit: float) -> float | None:
+    return abs(value - limit) / abs(limit) if limit else None

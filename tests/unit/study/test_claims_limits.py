@@ -1,0 +1,109 @@
+"""C10 to C13 on designs made by hand."""
+
+import pytest
+
+from claims_case import make_outcome
+from foldshell.study.claims import limits
+from foldshell.study.claims.outcome import Comparer
+
+COMPARER = Comparer()
+
+
+@pytest.mark.parametrize(
+    ("mean", "highest", "factor", "verdict"),
+    [
+        (0.3, 0.4, 1.2, "holds"),
+        (0.8, 0.95, 10.0, "fails"),
+        (0.3, 0.95, 10.0, "mixed"),
+        (0.6, 0.5, 2.0, "cannot_be_told"),
+    ],
+)
+def test_buckling_before_strength(mean, highest, factor, verdict):
+    """Strength is reached at 1 / 0.4 = 2.5 times the loads, buckling at 1.2 times."""
+    values = {"utilization_mean": mean, "utilization_panel_mean_max": highest}
+    design = make_outcome(values | {"buckling_factor": factor})
+    assert limits.judge_buckling([design], COMPARER).judge()[0] == verdict
+
+
+def test_what_holds_designs():
+    bindings = limits.count_bindings(
+        [
+            make_outcome({"displacement": 0.11, "utilization_panel_mean_max": 0.7}),
+            make_outcome({"panels_at_bound": 210, "utilization_panel_mean_max": 0.5}),
+            make_outcome({"buckling_factor": 1.2}),
+            make_outcome({"displacement": None, "state": "unstable"}),
+        ],
+        COMPARER,
+    )
+    assert bindings == {
+        "buckling factor": 1,
+        "displacement": 1,
+        "least thickness in every panel": 1,
+        "unstable": 1,
+        "utilization of a panel": 1,
+    }
+
+
+def _on_two_edges(*above):
+    return [
+        make_outcome({"above_one": a, "above_one_at_free_edge": b}, support="strip", strip=16 + k)
+        for k, (a, b) in enumerate(above)
+    ]
+
+
+@pytest.mark.parametrize(
+    ("above", "verdict"),
+    [
+        (((4, 4), (3, 2), (0, 0)), "holds"),
+        (((0, 0), (0, 0)), "fails"),
+        (((4, 4), (0, 0), (0, 0)), "mixed"),
+        (((4, 1), (3, 0)), "mixed"),
+    ],
+)
+def test_free_edges(above, verdict):
+    assert limits.judge_free_edges(_on_two_edges(*above)).judge()[0] == verdict
+
+
+def test_free_edges_of_designs_held_all_round_say_nothing():
+    claim = limits.judge_free_edges([make_outcome({"above_one": 5})])
+    assert claim.judge()[0] == "cannot_be_told"
+
+
+@pytest.mark.parametrize(
+    ("edge", "inner", "verdict"),
+    [
+        (0.09, 0.05, "holds"),
+        (0.05, 0.09, "fails"),
+        (0.050, 0.049, "cannot_be_told"),
+    ],
+)
+def test_deflection_along_free_edges(edge, inner, verdict):
+    values = {"displacement_edge": edge, "displacement_inner": inner}
+    designs = [make_outcome(values, support="zigzag")]
+    assert limits.judge_deflected_edges(designs, COMPARER).judge()[0] == verdict
+
+
+def _flat(displacement, first=None):
+    return {
+        "flat": "flat-sheet", "thickness_m": 0.05, "volume_m3": 80.0, "area_m2": 1600.0,
+        "sides_m": [40.0, 40.0], "state": "ok" if displacement else "unstable",
+        "displacement_first_order_m": first or displacement,
+        "errors": {"displacement": [0.01, 0.0]},
+        "measures": {"displacement": displacement, "utilization_panel_mean_max": 3.0},
+    }  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("flat", "verdict"),
+    [(_flat(3.0), "holds"), (_flat(0.01), "fails"), (_flat(0.051), "cannot_be_told")],
+)
+def test_flat_sheet_of_equal_volume(flat, verdict):
+    design = make_outcome()
+    claim = limits.judge_folds([design], {design.name: flat}, COMPARER)
+    assert claim.judge()[0] == verdict
+
+
+def test_a_flat_sheet_that_buckles_does_not_stand():
+    design = make_outcome()
+    (finding,) = limits.judge_folds([design], {design.name: _flat(None, 2.0)}, COMPARER).findings
+    assert finding.verdict == "holds" and finding.values == (2.0, 0.05)
