@@ -1,4 +1,4 @@
-# What leaves the pipeline: pictures.
+# What leaves the pipeline: pictures, pages and the report.
 
 
 rule draw:
@@ -22,6 +22,34 @@ rule draw:
         "../envs/foldshell.yaml"
     script:
         "../scripts/draw.py"
+
+
+rule page:
+    message:
+        "{wildcards.design}: page"
+    input:
+        mesh=rules.mesh.output.mesh,
+        folded=rules.fold.output.folded,
+        quality=rules.fold.output.quality,
+        arrays=rules.size.output.arrays,
+        final=rules.size.output.final,
+        history=rules.size.output.csv,
+        classes=rules.group.output.json,
+        class_arrays=rules.group.output.arrays,
+        mesh_study=rules.refine.output.study,
+        comparison=rules.crosscheck.output.comparison,
+        pictures=[rules.draw.output[name] for name in PICTURES],
+        library=library("page"),
+        assets=assets("page.css", "stage.html", "viewer.js"),
+    output:
+        page=f"{RESULTS}/{{design}}/page.html",
+    params:
+        design=lambda wildcards: BY_NAME[wildcards.design].to_row(),
+        settings=of_stage("size"),
+    conda:
+        "../envs/foldshell.yaml"
+    script:
+        "../scripts/page.py"
 
 
 CHARTS = ["supports", "surface", "curvature", "density_zigzag", "density_strip", "axes"]

@@ -1,0 +1,211 @@
+"""What the 3D view of a page shows: geometry, creases, fields with their scales, shapes."""
+
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from foldshell.figures.colours import (
+    ColourScale,
+    find_ticks,
+    format_tick,
+    make_limit_scale,
+    make_scale,
+)
+from foldshell.figures.drafts import Subject
+from foldshell.figures.fields import choose_deflection
+from foldshell.figures.pictures import RATIO_RANGE_MIN, exaggeration
+from foldshell.figures.state import DesignState
+from foldshell.shell.mesh import edge_polyline_nodes
+
+COLOURS = 64
+"""Colours of each map that the page interpolates between."""
+MODE_SHARE = 0.06
+"""The largest translation of a buckling mode is drawn this share of the span long."""
+CELLS_MAX = 40_000
+"""Sheets of more result cells are shown by their facets, so that the page stays small."""
+
+
+@dataclass(frozen=True)
+class View:
+    """Arrays for `pack_arrays`, and what the page must know about them as plain data."""
+
+    arrays: dict[str, np.ndarray]
+    facts: dict[str, Any]
+
+
+def make_view(subject: Subject) -> View:
+    """Return the view of a design; fields and shapes that its state lacks are left out.
+
+    Arrays: nodes (N, 3) m; triangles (C, 3); panel (C,); mountain, valley, flat, border (K, n)
+    nodes along creases; supports (S,) nodes; of each panel thickness (m), utilization, planarity,
+    zigzag and strip; and those that `facts["fields"]` and `facts["shapes"]` name.
+    """
+    state, grid = subject.state, _make_grid(subject)
+    arrays = {"nodes": grid.nodes, "triangles": grid.triangles, "panel": grid.panel}
+    arrays |= {f"crease_{kind}": nodes for kind, nodes in grid.creases.items()}
+    arrays |= {"supports": grid.supports} | _panel_values(state)
+    fields, values = [], {}
+    for name, (words, array, scale, options) in _fields(subject, grid).items():
+        values[f"field_{name}"] = array
+        fields.append({"name": name, "words": words} | _describe_scale(scale) | options)
+    shapes = []
+    for name, words, moved, factor in _shapes(subject, grid):
+        values[f"shape_{name}"] = moved
+        shapes.append({"name": name, "words": words, "factor": factor})
+    facts = {
+        "span": subject.span,
+        "fields": fields,
+        "shapes": shapes,
+        "coarse": grid.per_triangle > 1,
+    }
+    return View(arrays | values, facts)
+
+
+@dataclass(frozen=True)
+class _Grid:
+    """Triangles of the view, each of `per_triangle` result cells, and nodes along its creases."""
+
+    nodes: np.ndarray
+    triangles: np.ndarray
+    panel: np.ndarray
+    creases: dict[str, np.ndarray]
+    supports: np.ndarray
+    per_triangle: int = 1
+
+    def at_triangles(self, cells: np.ndarray) -> np.ndarray:
+        """Return the largest of the cell values (C,) in each triangle."""
+        return cells.reshape(-1, self.per_triangle).max(axis=1)
+
+    def at_nodes(self, values: np.ndarray) -> np.ndarray:
+        """Return the node values (N, ...) of the result mesh that the view keeps."""
+        return values[: len(self.nodes)]
+
+
+def _make_grid(subject: Subject) -> _Grid:
+    """Return the result cells, or the facets alone of a sheet of very many.
+
+    The first nodes of a mesh are the sheet's vertices, and cells follow facet by facet.
+    """
+    state, creases = subject.state, subject.creases
+    kinds = {kind: getattr(creases, kind) for kind in ("mountain", "valley", "flat", "border")}
+    pairs = state.shell["support_pairs"]
+    if len(state.triangles) <= CELLS_MAX:
+        supports = edge_polyline_nodes(state.cells, pairs)
+        return _Grid(state.cells.nodes, state.triangles, state.cell_panel, kinds, supports)
+    facets = state.shell["facets"]
+    ends = {kind: lines[:, [0, -1]] for kind, lines in kinds.items()}
+    return _Grid(state.shell["vertices"], facets, state.shell["facet_panel"], ends,
+                 np.unique(pairs), len(state.triangles) // len(facets))  # fmt: skip
+
+
+def _panel_values(state: DesignState) -> dict[str, np.ndarray]:
+    """Return what picking a panel shows, (P,); thickness (P + B,) with an edge beam's strips."""
+    quads = state.folded["quads"]
+    values = {
+        "panel_thickness": _all_thicknesses(state),
+        "panel_planarity": state.folded["planarity"],
+        "panel_zigzag": state.folded["zigzag"][quads].min(axis=1),
+        "panel_strip": state.folded["strip"][quads].min(axis=1),
+    }
+    if state.utilization is not None:
+        values["panel_utilization"] = state.final["utilization_panel_mean"]
+    if state.classes:
+        values["panel_class"] = state.classes["panel_class"]
+    return values
+
+
+def _all_thicknesses(state: DesignState) -> np.ndarray:
+    return np.append(state.final["thickness"], state.shell.get("fixed_thickness", ()))
+
+
+def _pad(state: DesignState, values: np.ndarray) -> np.ndarray:
+    """Return panel values (P,) with nan for the strips of an edge beam behind them, (P + B,)."""
+    strips = int(state.mesh.panel.max()) + 1 - len(values)
+    return np.append(values, np.full(strips, np.nan))
+
+
+def _fields(subject: Subject, grid: _Grid) -> dict[str, tuple]:
+    """Return words with unit, values at panels, triangles or nodes, scale, options by name."""
+    state = subject.state
+    thickness = 1e3 * _all_thicknesses(state)
+    scale = make_scale(thickness, "YlGnBu")
+    fields = {"thickness": ("thickness [mm]", thickness, scale, {"at": "panel"})}
+    if state.utilization is not None:
+        fields |= _utilization_fields(subject, grid)
+    if state.usable:
+        name = choose_deflection(state)
+        down = -1e3 * grid.at_nodes(state.displacement_at_nodes(name))[:, 2]
+        words = f"vertical displacement, down [mm], {name}"
+        fields["displacement"] = words, down, make_scale(down, "cividis"), {"at": "node"}
+    if state.classes:
+        fields["class"] = _class_field(state)
+    planarity = 100 * _pad(state, state.folded["planarity"])
+    words = "planarity: distance of diagonals / their mean length [%]"
+    scale = make_scale(planarity, zero=True, least=RATIO_RANGE_MIN)
+    fields["planarity"] = words, planarity, scale, {"at": "panel"}
+    return fields
+
+
+def _utilization_fields(subject: Subject, grid: _Grid) -> dict[str, tuple]:
+    state, limit = subject.state, subject.limits.utilization_max
+    combinations = f"{state.strength[0]} to {state.strength[-1]}"
+    means = _pad(state, state.final["utilization_panel_mean"])
+    found = {}
+    for name, words, values, at in (
+        ("utilization", "utilization [-], largest of", grid.at_triangles(state.utilization),
+         "triangle"),
+        ("utilization_mean", "panel mean of utilization [-], largest of", means, "panel"),
+    ):  # fmt: skip
+        most = float(np.nanmax(values))
+        above = f"up to {most:.2f}" if most > limit else "none"
+        scale = make_limit_scale(values, limit)
+        found[name] = f"{words} {combinations}", values, scale, {"at": at, "above": above}
+    return found
+
+
+def _class_field(state: DesignState) -> tuple:
+    """Return the number of each panel's class, with their thicknesses for the legend."""
+    number, thickness = state.classes["panel_class"], 1e3 * state.classes["thickness"]
+    count = int(number.max())
+    names = {
+        k: f"{k}: {thickness[number == k].max():.0f} mm" if (number == k).any() else str(k)
+        for k in range(1, count + 1)
+    }
+    scale = ColourScale(0.5, count + 0.5, "YlGnBu")
+    options = {"at": "panel", "classes": names}
+    return "class of thickness for fabrication", _pad(state, number), scale, options
+
+
+def _describe_scale(scale: ColourScale) -> dict[str, Any]:
+    """Return range, colours and ticks of a scale as plain data."""
+    ticks = find_ticks(scale.low, scale.high)
+    step = ticks[1] - ticks[0] if len(ticks) > 1 else scale.high - scale.low
+    colours = ColourScale(scale.low, scale.high, scale.map_name).colour(
+        np.linspace(scale.low, scale.high, COLOURS)
+    )
+    return {
+        "low": scale.low,
+        "high": scale.high,
+        "limit": scale.limit,
+        "colours": colours.tobytes().hex(),
+        "ticks": [[tick, format_tick(tick, step)] for tick in ticks],
+    }
+
+
+def _shapes(subject: Subject, grid: _Grid) -> list[tuple[str, str, np.ndarray, float]]:
+    """Return name, words, translations (N, 3) m and the factor they are drawn with at most."""
+    state, shapes = subject.state, []
+    if state.usable:
+        name = choose_deflection(state)
+        moved = grid.at_nodes(state.displacement_at_nodes(name))
+        shapes.append(("displacement", f"displacement of {name}", moved,
+                       exaggeration(moved, subject.span)))  # fmt: skip
+    factors = state.report.get("buckling_factor") or {}
+    factors = {name: value for name, value in factors.items() if value is not None}
+    if "buckling_modes" in state.final and factors:
+        name = min(factors, key=factors.get)
+        mode = grid.at_nodes(state.buckling_mode(name))
+        words = f"buckling mode of {name}, factor {factors[name]:.2f}"
+        shapes.append(("buckling", words, mode, MODE_SHARE * subject.span))
+    return shapes

@@ -1,0 +1,60 @@
+"""Rule page: the page of one design, with a 3D view, in one HTML file."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from foldshell.figures.drafts import Elasticity, Limits, make_subject
+from foldshell.figures.state import read_state
+from foldshell.report.page import write_design_page
+from foldshell.report.sections import read_files
+from foldshell.report.view import make_view
+from foldshell.study.errors import user_errors
+from foldshell.study.files import atomic_path
+
+ARRAYS = ("mesh", "folded", "arrays", "final")
+"""Inputs that hold the final state; `classes` are added to it."""
+
+
+def main(
+    paths: Mapping[str, str | Path],
+    pictures: Mapping[str, str | Path],
+    page_path: str | Path,
+    *,
+    design: Mapping[str, Any],
+    settings: Mapping[str, Any],
+) -> None:
+    """Write the page.
+
+    Parameters
+    ----------
+    paths : mesh, folded, arrays, class_arrays (npz), final, quality, classes, mesh_study,
+        comparison (json), history (csv)
+    pictures : PNG files by name
+    design : row of designs.tsv
+    settings : plain parameters of stage `size`
+    """
+    state_paths = [paths[name] for name in ARRAYS]
+    combinations, name = settings["combinations"], design["design"]
+    state = read_state(name, *state_paths, combinations, paths["class_arrays"])
+    sizing, material = settings["sizing"], settings["material"]
+    limits = Limits(sizing["utilization_max"], sizing["displacement_limit_span_over"])
+    elasticity = Elasticity(material["youngs_modulus"], material["poissons_ratio"])
+    subject = make_subject(
+        state, design["span_m"], limits, elasticity, design["pattern"] != "smooth"
+    )
+    files = read_files(design, paths)
+    page = write_design_page(files, make_view(subject), pictures, limits.utilization_max)
+    with atomic_path(page_path) as temporary:
+        temporary.write_text(page, encoding="utf-8")
+
+
+if "snakemake" in globals():
+    with user_errors():
+        main(
+            snakemake.input,  # noqa: F821
+            {Path(path).stem: path for path in snakemake.input.pictures},  # noqa: F821
+            snakemake.output.page,  # noqa: F821
+            design=snakemake.params.design,  # noqa: F821
+            settings=snakemake.params.settings,  # noqa: F821
+        )
