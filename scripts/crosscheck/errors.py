@@ -1,8 +1,11 @@
 """What went wrong with an input of the cross-check, in one sentence."""
 
+import errno
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+
+NO_SPACE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
 class CrosscheckError(ValueError):
@@ -15,9 +18,14 @@ class MechanismError(CrosscheckError):
 
 @contextmanager
 def report_errors() -> Iterator[None]:
-    """Turn a `CrosscheckError` into one line on stderr and exit code 1, without a traceback."""
+    """Turn a `CrosscheckError` or a full disk into one line on stderr and exit code 1."""
     try:
         yield
     except CrosscheckError as error:
         print(f"error: {error}", file=sys.stderr)
+        raise SystemExit(1) from None
+    except OSError as error:
+        if error.errno not in NO_SPACE:
+            raise
+        print(f"error: {error}: free some space and start again", file=sys.stderr)
         raise SystemExit(1) from None

@@ -1,6 +1,7 @@
 """Run a tiny study by Snakemake in a folder of its own."""
 
 import hashlib
+import json
 import os
 import shutil
 import signal
@@ -58,19 +59,51 @@ def run(code: Path, folder: Path, *arguments: str):
     return subprocess.run(command(code, *arguments), cwd=folder, capture_output=True, text=True)
 
 
-def run_and_kill(code: Path, folder: Path, until: Path, *arguments: str) -> None:
-    """Start Snakemake and kill it with all its jobs, by signal 9, once a file appears."""
-    process = subprocess.Popen(
+def start(code: Path, folder: Path, *arguments: str) -> subprocess.Popen:
+    """Start Snakemake as the head of a process group of its own; its output goes nowhere."""
+    return subprocess.Popen(
         command(code, *arguments),
         cwd=folder,
         stdout=subprocess.DEVNULL,
         stderr=subprocess.DEVNULL,
         start_new_session=True,
     )
+
+
+def run_and_kill(code: Path, folder: Path, until: Path, *arguments: str) -> None:
+    """Start Snakemake and kill it with all its jobs, by signal 9, once a file appears."""
+    process = start(code, folder, *arguments)
     while not until.exists() and process.poll() is None:
         time.sleep(0.02)
     os.killpg(process.pid, signal.SIGKILL)
     process.wait()
+
+
+def run_until_files(code: Path, folder: Path, more: int, wait: float, *arguments: str):
+    """Start Snakemake and return its process once it has written `more` files, `wait` s later.
+
+    Files count while they are being written too, so that a kill may hit a job in the middle.
+    """
+    process = start(code, folder, *arguments)
+    aim = count_files(folder) + more
+    while count_files(folder) < aim and process.poll() is None:
+        time.sleep(0.02)
+    time.sleep(wait)
+    return process
+
+
+def count_files(folder: Path) -> int:
+    """Return the number of files under results."""
+    return sum(len(files) for _, _, files in os.walk(folder / "results"))
+
+
+def find_jobs(process: subprocess.Popen) -> list[int]:
+    """Return the ids of the job processes of a running Snakemake."""
+    listed = subprocess.run(
+        ["ps", "-o", "pid=,args=", "--sid", str(process.pid)], capture_output=True, text=True
+    )
+    lines = [line.split(maxsplit=1) for line in listed.stdout.splitlines()]
+    return [int(pid) for pid, words in lines if "/.snakemake/scripts/" in words]
 
 
 def hashes(folder: Path, pattern: str) -> dict[str, str]:
@@ -87,3 +120,17 @@ def times(folder: Path, pattern: str) -> dict[str, int]:
         str(path.relative_to(folder)): path.stat().st_mtime_ns
         for path in sorted(folder.glob(pattern))
     }
+
+
+def results(folder: Path) -> dict[str, str]:
+    """Return {relative path: SHA-256} of all results; JSON files without their seconds."""
+    found = {}
+    for path in sorted((folder / "results").rglob("*")):
+        if path.is_file():
+            data = path.read_bytes()
+            if path.suffix == ".json":
+                content = json.loads(data)
+                content.pop("seconds", None)
+                data = json.dumps(content).encode()
+            found[str(path.relative_to(folder))] = hashlib.sha256(data).hexdigest()
+    return found

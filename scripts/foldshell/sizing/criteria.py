@@ -2,11 +2,13 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 
 STATIONARY_ITERATIONS = 3
-"""Iterations in a row with a small change of volume that `stop: stationary` asks for."""
+"""Iterations in a row over which `stop: stationary` asks for a small change of volume: each may
+take an equal share of `volume_change_max_relative`. Of slow rules a single change says little."""
 
 
 @dataclass(frozen=True)
@@ -63,7 +65,8 @@ def judge_iteration(now: IterationState, rule: StopRule) -> Verdict:
         return _judge_unstable(now, rule)
     criteria = evaluate_criteria(now, rule)
     change = criteria["volume_change_relative"]["value"]
-    small = change is not None and change < rule.volume_change_max_relative
+    share = rule.volume_change_max_relative / STATIONARY_ITERATIONS
+    small = change is not None and change < share
     quiet = now.previous_quiet + 1 if small else 0
     open_names = [name for name, item in criteria.items() if not item["met"]]
     settled = rule.stop == "table3" or quiet >= STATIONARY_ITERATIONS
@@ -135,13 +138,21 @@ def _describe(now, rule: StopRule, criteria, open_names: list[str]) -> str:
             above = np.flatnonzero(now.utilization > rule.utilization_max)
             worst = above[np.argsort(-now.utilization[above], kind="stable")][:8].tolist()
             more = f" and {len(above) - 8} more" if len(above) > 8 else ""
+            value, limit = _show_both(item)
             words.append(
-                f"utilization {item['value']:.3g} above {item['limit']:g} in {len(above)} of "
+                f"utilization {value} above {limit} in {len(above)} of "
                 f"{len(now.utilization)} panels: {', '.join(map(str, worst))}{more}"
             )
         elif item["value"] is None:
             words.append(f"{name} is not known before the second analysis")
         else:
             relation = "below" if name == "utilization_min" else "not below"
-            words.append(f"{name} {item['value']:.3g} {relation} {item['limit']:.3g}")
+            value, limit = _show_both(item)
+            words.append(f"{name} {value} {relation} {limit}")
     return "; ".join(words)
+
+
+def _show_both(item: Mapping[str, Any]) -> tuple[str, str]:
+    """Return value and limit with three digits, or as many as tell them apart."""
+    pairs = ((f"{item['value']:.{n}g}", f"{item['limit']:.{n}g}") for n in range(3, 18))
+    return next((pair for pair in pairs if pair[0] != pair[1]), (f"{item['value']}",) * 2)

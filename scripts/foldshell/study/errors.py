@@ -1,8 +1,11 @@
 """Errors that a person can act on: one sentence, no traceback."""
 
+import errno
 import sys
 from collections.abc import Iterator
 from contextlib import contextmanager
+
+NO_SPACE = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
 
 
 class InputError(ValueError):
@@ -15,9 +18,19 @@ class InputError(ValueError):
 
 @contextmanager
 def user_errors() -> Iterator[None]:
-    """Print an `InputError` as one line on stderr and exit with code 1."""
+    """Print an `InputError` or a full disk as one line on stderr and exit with code 1."""
     try:
         yield
     except InputError as error:
         print(f"error: {error}", file=sys.stderr)
         raise SystemExit(1) from None
+    except OSError as error:
+        if error.errno not in NO_SPACE:
+            raise
+        print(f"error: {_say_full(error)}", file=sys.stderr)
+        raise SystemExit(1) from None
+
+
+def _say_full(error: OSError) -> str:
+    place = f"{error.filename}: " if error.filename else ""
+    return f"{place}{error.strerror}: free some space and start again, what is done is kept"

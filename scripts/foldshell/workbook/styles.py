@@ -30,6 +30,7 @@ _FORMATS: dict[str, dict[str, Any]] = {
         "bottom": 1,
         "bottom_color": _RULE,
         "valign": "bottom",
+        "align": "left",
         "indent": 1,
     },
     "header_number": {
@@ -56,6 +57,7 @@ _FORMATS: dict[str, dict[str, Any]] = {
     "decimal": {"num_format": "0.000", "align": "right"},
     "general": {"num_format": "0.0#####", "align": "right"},
     "scientific": {"num_format": "0.00E+00", "align": "right"},
+    "percent": {"num_format": "0.0%", "align": "right"},
     "change": {"num_format": "+0.0%;-0.0%;0.0%", "align": "right"},
     # Blue on pale yellow: the usual mark of a cell that a person may type into.
     "input": {"num_format": "0.0000", "font_color": "#0000FF", "bg_color": "#FFF9DB"},

@@ -30,8 +30,8 @@ RESULT_COLUMNS = [
     ("note", "", "text", 36.0),
 ]
 _HELP = (
-    "Blue cells of the sheet 'thickness' may be changed: type metres with a decimal point, save, "
-    "and run the workflow again. What follows this iteration is then computed anew."
+    "The blue numbers of the sheet 'thickness' may be changed: type metres with a decimal point, "
+    "save, and run the workflow again. What follows this iteration is then computed anew."
 )
 
 

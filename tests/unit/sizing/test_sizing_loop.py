@@ -168,12 +168,20 @@ def test_stationary_asks_for_three_quiet_iterations():
     rule = replace(STOP, stop="stationary")
     quiet, verdicts = 0, []
     for number in range(4):
-        found = judge_iteration(iteration(iteration=number, previous_quiet=quiet), rule)
+        now = iteration(iteration=number, previous_volume=100.2, previous_quiet=quiet)
+        found = judge_iteration(now, rule)
         quiet = found.quiet
         verdicts.append(found.verdict)
     assert verdicts == ["continue", "continue", "converged", "converged"]
     loud = judge_iteration(iteration(previous_volume=105.0, previous_quiet=2), rule)
     assert loud.verdict == "continue" and loud.quiet == 0
+    creeping = judge_iteration(iteration(previous_volume=100.5, previous_quiet=2), rule)
+    assert creeping.verdict == "continue", "1 % is the change of three iterations together"
+
+
+def test_a_reason_shows_as_many_digits_as_tell_value_from_limit():
+    close = iteration(utilization=np.array([0.9, 1.0004]))
+    assert "utilization 1.0004 above 1 in 1 of 2 panels: 1" in judge_iteration(close, STOP).reason
 
 
 def test_gathering_removes_what_a_kill_left_half_written(tmp_path):

@@ -1,0 +1,172 @@
+"""A tiny study under faults: kills, Ctrl-C, a full disk, a second start, other settings."""
+
+import json
+import os
+import random
+import resource
+import shutil
+import signal
+import subprocess
+
+import pytest
+import yaml
+from study_runner import (
+    command,
+    copy_code,
+    find_jobs,
+    make_study,
+    results,
+    run,
+    run_and_kill,
+    run_until_files,
+)
+
+TARGET = "results/summary.csv"
+ONE_DESIGN = "results/tiny-dome/design.xlsx"
+KILLS = 40
+
+
+@pytest.fixture(scope="module")
+def code(tmp_path_factory):
+    """Return a copy of the workflow's code."""
+    return copy_code(tmp_path_factory.mktemp("code"))
+
+
+@pytest.fixture(scope="module")
+def undisturbed(code, tmp_path_factory):
+    """Return the folder of a tiny study that has run undisturbed."""
+    folder = make_study(tmp_path_factory.mktemp("study"))
+    done = run(code, folder, TARGET)
+    assert done.returncode == 0, done.stderr[-3000:]
+    return folder
+
+
+def remove_locks(folder):
+    """Do what `snakemake --unlock` does, without the start of another Snakemake."""
+    shutil.rmtree(folder / ".snakemake/locks", ignore_errors=True)
+
+
+def kill_something(process, chance):
+    """Kill by signal 9 the scheduler with its jobs, the scheduler alone, or one job."""
+    jobs = find_jobs(process)
+    victim = chance.choice(["all", "scheduler", "job"])
+    try:
+        if victim == "job" and jobs:
+            os.kill(chance.choice(jobs), signal.SIGKILL)
+            process.wait()
+        elif victim == "scheduler":
+            os.kill(process.pid, signal.SIGKILL)
+        else:
+            os.killpg(process.pid, signal.SIGKILL)
+    except ProcessLookupError:
+        return None
+    process.wait()
+    return victim
+
+
+@pytest.mark.slow
+def test_forty_kills_leave_the_results_of_an_undisturbed_run(code, undisturbed, tmp_path):
+    """Scheduler and jobs die at random moments until the study is done; then another one."""
+    chance, kills, studies = random.Random(5), 0, 0
+    while kills < KILLS:
+        studies += 1
+        folder = make_study(tmp_path / f"killed{studies}")
+        while kills < KILLS and not (folder / TARGET).exists():
+            moment = chance.randrange(1, 6), chance.uniform(0, 0.4)
+            process = run_until_files(code, folder, *moment, TARGET)
+            if process.poll() is None and kill_something(process, chance):
+                kills += 1
+            remove_locks(folder)
+        done = run(code, folder, TARGET)
+        assert done.returncode == 0, done.stderr[-3000:]
+        assert results(folder) == results(undisturbed)
+    assert studies > 0
+
+
+def test_after_ctrl_c_the_next_start_goes_on(code, undisturbed, tmp_path):
+    """Snakemake takes its lock away; what a stopped job had begun is not taken as done."""
+    folder = make_study(tmp_path / "stopped")
+    process = run_until_files(code, folder, 12, 0.1, TARGET)
+    os.killpg(process.pid, signal.SIGINT)
+    assert process.wait() != 0
+    done = run(code, folder, TARGET)
+    assert done.returncode == 0, done.stderr[-3000:]
+    assert results(folder) == results(undisturbed)
+
+
+def test_a_second_start_is_refused_and_harms_nothing(code, undisturbed, tmp_path):
+    folder = make_study(tmp_path / "twice")
+    first = run_until_files(code, folder, 3, 0, TARGET)
+    second = run(code, folder, TARGET)
+    assert second.returncode != 0
+    assert "cannot be locked" in second.stderr and "--unlock" in second.stderr
+    assert first.wait() == 0
+    assert results(folder) == results(undisturbed)
+
+
+@pytest.mark.slow
+def test_a_full_disk_is_said_and_nothing_is_lost_once_it_is_freed(code, undisturbed, tmp_path):
+    """A limit on the size of files stands for a disk without space."""
+    folder, limit = make_study(tmp_path / "full"), (20_000, 20_000)
+    done = subprocess.run(
+        command(code, TARGET),
+        cwd=folder,
+        capture_output=True,
+        text=True,
+        preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_FSIZE, limit),
+    )
+    assert done.returncode != 0
+    assert "free some space and start again" in done.stderr
+    assert not list((folder / "results").rglob(".writing-*"))
+    done = run(code, folder, TARGET)
+    assert done.returncode == 0, done.stderr[-3000:]
+    assert results(folder) == results(undisturbed)
+
+
+@pytest.mark.slow
+def test_settings_changed_half_way_give_what_they_give_from_scratch(code, tmp_path):
+    """Iterations that were sized by the old settings are not mixed with new ones."""
+    folder, fresh = make_study(tmp_path / "changed"), make_study(tmp_path / "fresh")
+    run_and_kill(code, folder, folder / "results/tiny-dome/sizing/02/thickness.xlsx", ONE_DESIGN)
+    remove_locks(folder)
+    for place in (folder, fresh):
+        path = place / "config/config.yaml"
+        config = yaml.safe_load(path.read_text())
+        config["sizing"]["step"] = 0.2
+        path.write_text(yaml.safe_dump(config, sort_keys=False))
+        done = run(code, place, ONE_DESIGN)
+        assert done.returncode == 0, done.stderr[-3000:]
+    assert results(folder) == results(fresh)
+
+
+@pytest.mark.slow
+def test_verify_finds_and_mends_what_snakemake_does_not_notice(code, undisturbed, tmp_path):
+    """A deleted analysis in the middle, a cut mesh, a number changed in the final state."""
+    folder = tmp_path / "spoilt"
+    shutil.copytree(undisturbed, folder, symlinks=True, copy_function=shutil.copy2)
+    spoilt = [
+        folder / "results/tiny-dome" / name
+        for name in ("sizing/01/analysis.json", "shell/mesh.npz", "sizing/final.json")
+    ]
+    spoilt[0].unlink()
+    os.truncate(spoilt[1], 1000)
+    final = json.loads(spoilt[2].read_text())
+    spoilt[2].write_text(json.dumps(final | {"volume_m3": 1.0}))
+    verify = [start_script(code, folder), start_script(code, folder, "--repair")]
+    for done in verify:
+        assert done.returncode == 1
+        assert all(str(path.relative_to(folder)) in done.stdout for path in spoilt)
+    assert run(code, folder, TARGET).returncode == 0
+    assert results(folder) == results(undisturbed)
+    assert start_script(code, folder).returncode == 0
+
+
+def start_script(code, folder, *arguments):
+    """Run scripts/verify.py in a study's folder."""
+    program = command(code)[0]
+    return subprocess.run(
+        [program, str(code / "scripts/verify.py"), *arguments],
+        cwd=folder,
+        capture_output=True,
+        text=True,
+    )
