@@ -4,7 +4,7 @@ import json
 import math
 
 from foldshell.study.designs import SURFACES, select_designs
-from foldshell.study.imports import library_files
+from foldshell.study.imports import write_library_list
 from foldshell.study.stages import choose_subdivisions, settings_hash, stage_parameters
 
 BY_NAME = {design.name: design for design in DESIGNS}
@@ -18,8 +18,8 @@ SCRIPTS = "scripts" if Path.cwd() == Path(workflow.basedir) else f"{workflow.bas
 
 
 def library(script):
-    """Return the library files that a rule's script imports, as inputs of the rule."""
-    return library_files(f"{SCRIPTS}/{script}.py", SCRIPTS)
+    """Return the list of the library files that a rule's script imports, as an input of it."""
+    return write_library_list(f"{SCRIPTS}/{script}.py", SCRIPTS, ".snakemake/library")
 
 
 def assets(*names):

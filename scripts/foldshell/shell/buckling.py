@@ -56,7 +56,7 @@ def find_buckling_factors(
     factors: np.ndarray,
     size: int,
     start: np.ndarray | None = None,
-    tolerance: float = 3e-3,
+    tolerance: float = 1e-2,
     iterations_max: int = 60,
 ) -> BucklingResult:
     """Find the least positive buckling factor of each combination.

@@ -1,12 +1,36 @@
 """Which library files a script depends on, found by following its import statements.
 
 Snakemake runs a rule again when its script changes, but not when a module that the script imports
-does. Rules therefore list these files as inputs.
+does. Rules therefore have as an input a list of these files with their hashes. The list stands for
+the files because Snakemake looks at, hashes and records every input of every job: with some forty
+files each, that took more time than the analyses.
 """
 
 import ast
 import functools
+import hashlib
 from pathlib import Path
+
+from foldshell.study.files import write_text_if_changed
+
+
+def write_library_list(script: str | Path, root: str | Path, folder: str | Path) -> str:
+    """Write `<folder>/<script>.sha256`, a line a library file; return its path.
+
+    A list that is right already is not touched, so only a changed library makes it newer.
+    """
+    lines = [
+        f"{_hash(path)}  {path.relative_to(root)}"
+        for path in map(Path, library_files(script, root))
+    ]
+    target = Path(folder) / f"{Path(script).stem}.sha256"
+    write_text_if_changed(target, "".join(f"{line}\n" for line in lines))
+    return str(target)
+
+
+@functools.cache
+def _hash(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
 
 
 def library_files(script: str | Path, root: str | Path) -> list[str]:

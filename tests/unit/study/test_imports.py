@@ -2,7 +2,8 @@
 
 from pathlib import Path
 
-from foldshell.study.imports import library_files
+from foldshell.study import imports
+from foldshell.study.imports import library_files, write_library_list
 
 SCRIPTS = Path(__file__).parents[3] / "scripts"
 
@@ -23,6 +24,24 @@ def test_imports_are_followed_two_deep(tmp_path):
     script = write(tmp_path, "run.py", "from lib.a import x\n")
     names = [Path(file).name for file in library_files(script, tmp_path)]
     assert names == ["__init__.py", "a.py", "b.py", "c.py"]
+
+
+def test_the_list_changes_with_the_library_and_only_then(tmp_path):
+    write(tmp_path, "lib/__init__.py")
+    module = write(tmp_path, "lib/a.py", "x = 1\n")
+    script = write(tmp_path, "run.py", "from lib.a import x\n")
+
+    def listed():
+        imports._hash.cache_clear()
+        target = Path(write_library_list(script, tmp_path, tmp_path / "lists"))
+        return target.read_text(), target.stat().st_mtime_ns
+
+    first = listed()
+    assert [line.split()[1] for line in first[0].splitlines()] == ["lib/__init__.py", "lib/a.py"]
+    assert listed() == first
+    module.write_text("x = 2\n")
+    second = listed()
+    assert second[0] != first[0] and second[1] > first[1]
 
 
 def test_every_entry_script_depends_on_what_it_loads():
