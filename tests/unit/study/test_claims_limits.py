@@ -10,19 +10,31 @@ COMPARER = Comparer()
 
 
 @pytest.mark.parametrize(
-    ("mean", "highest", "factor", "verdict"),
+    ("states", "verdict"),
     [
-        (0.3, 0.4, 1.2, "holds"),
-        (0.8, 0.95, 10.0, "fails"),
-        (0.3, 0.95, 10.0, "mixed"),
-        (0.6, 0.5, 2.0, "cannot_be_told"),
+        ([(0.4, 1.2)], "holds"),
+        ([(0.95, 10.0)], "fails"),
+        ([(0.4, 1.2), (0.95, 10.0)], "mixed"),
+        ([(0.5, 2.0)], "cannot_be_told"),
     ],
 )
-def test_buckling_before_strength(mean, highest, factor, verdict):
+def test_buckling_before_strength(states, verdict):
     """Strength is reached at 1 / 0.4 = 2.5 times the loads, buckling at 1.2 times."""
-    values = {"utilization_mean": mean, "utilization_panel_mean_max": highest}
-    design = make_outcome(values | {"buckling_factor": factor})
-    assert limits.judge_buckling([design], COMPARER).judge()[0] == verdict
+    designs = [
+        make_outcome({"utilization_panel_mean_max": u, "buckling_factor": f}, strip=16 + k)
+        for k, (u, f) in enumerate(states)
+    ]
+    assert limits.judge_buckling(designs, COMPARER).judge()[0] == verdict
+
+
+@pytest.mark.parametrize(
+    ("mean", "verdict"), [(0.3, "holds"), (0.8, "fails"), (0.6, "cannot_be_told")]
+)
+def test_low_utilization_stands_beside_the_reason(mean, verdict):
+    """Low is below 0.6, the lower limit of Table 3."""
+    claim = limits.judge_buckling([make_outcome({"utilization_mean": mean})], COMPARER)
+    assert claim.judge()[1]["utilization is low"] == verdict
+    assert claim.judge()[0] == "fails"
 
 
 def test_what_holds_designs():

@@ -38,7 +38,8 @@ def judge_auxetic(kinematics: Mapping[str, Any]) -> Claim:
         name = f"Miura cell folded by {row['fold_angle_deg']:.4g} deg"
         verdict = judge_difference(*values, gap)
         findings.append(Finding(part, (name,), "zero, in-plane ratio", "-", values, gap, verdict))
-    return Claim("C1", findings)
+    method = "a finite step of folding against the closed form"
+    return Claim("C1", findings, method=method)
 
 
 def judge_soft_modes(
@@ -61,7 +62,8 @@ def judge_soft_modes(
                 part = f"{shape}: edges of designs strained more than the hypar's"
                 findings.append(comparer.compare(part, *pair, "edge_strain_rms"))
     findings.sort(key=lambda finding: finding.part)
-    return Claim("C2", findings)
+    method = f"isometry residuals up to {ISOMETRIC:g} count as none; strains are geometry"
+    return Claim("C2", findings, method=method)
 
 
 def _find_soft(name: str, sheet: Mapping[str, Any]) -> list[Finding]:
@@ -111,7 +113,7 @@ def _find_strengths(rows: Sequence[Mapping[str, Any]], surface: str) -> list[Fin
         if folded:
             share = sum(folded) / len(folded)
             true = share == 1 if kind == "triangles" else 0 < share < 1
-            quantity = f"share of {len(folded)} settings that fold, all"
+            quantity = f"share of {len(folded)} settings that fold"
             found.append(state_fact(part, f"{kind} on the {surface}", quantity, share, 1.0, true))
     return found
 

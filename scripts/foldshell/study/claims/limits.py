@@ -21,15 +21,19 @@ def judge_buckling(outcomes: Sequence[Outcome], comparer: Comparer) -> Claim:
     for one in designs:
         low = {"utilization_mean": comparer.utilization_min}
         limit = replace(one, values={**one.values, **low}, errors=NO_ERRORS)
-        found = comparer.compare("utilization is low", limit, one, "utilization_mean")
-        findings.append(replace(found, designs=(one.name,)))
+        found = comparer.compare(LOW, limit, one, "utilization_mean")
+        names = "limit, utilization_mean"
+        findings.append(replace(found, designs=(one.name,), quantity=names))
     part = "buckling before strength"
     findings += [
         comparer.compare_within(part, one, "strength_factor", "buckling_factor") for one in designs
     ]
-    return Claim("C10", findings, numbers={"held_by": count_bindings(designs, comparer)})
+    held = {"held_by": count_bindings(designs, comparer)}
+    note = "The verdict is that of the reason given, buckling; low utilization stands beside it."
+    return Claim("C10", findings, open=(LOW,), notes=(note,), numbers=held)
 
 
+LOW = "utilization is low"
 NO_ERRORS = {name: (0.0, 0.0) for name in ("displacement", "utilization", "buckling")}
 
 

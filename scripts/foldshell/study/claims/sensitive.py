@@ -41,12 +41,23 @@ def judge_variants(
     for name, claim in claims.items():
         verdict, parts = claim.judge()
         verdicts[name] = {"verdict": verdict, "parts": parts}
-    base = verdicts[BASE]["verdict"]
+    changes = {name: _find_changes(verdicts[BASE], found) for name, found in verdicts.items()}
     return {
         "designs": sorted({name for f in claims[BASE].findings for name in f.designs}),
         "verdicts": verdicts,
-        "changed_by": [name for name, found in verdicts.items() if found["verdict"] != base],
+        "changes": {name: found for name, found in changes.items() if found},
     }
+
+
+def _find_changes(base: Mapping[str, Any], found: Mapping[str, Any]) -> dict[str, str]:
+    """Return the verdicts, of the claim and of its parts, that differ from those of the base."""
+    claim = {"the claim": found["verdict"]} if found["verdict"] != base["verdict"] else {}
+    parts = {
+        part: verdict
+        for part, verdict in found["parts"].items()
+        if base["parts"].get(part) != verdict
+    }
+    return claim | parts
 
 
 def judge_equal_thickness(
@@ -65,27 +76,45 @@ def judge_equal_thickness(
 
 
 def describe_dependence(
-    claim: Claim, runs: Mapping[str, Any] | None, equal: Mapping[str, Any] | None
+    claim: Claim,
+    runs: Mapping[str, Any] | None,
+    equal: Mapping[str, Any] | None,
+    variants: Mapping[str, Sequence[Outcome]],
 ) -> str:
     """Say in words how far a verdict depends on the settings."""
     words = []
     if claim.key in ("C1", "C2", "C3", "C14"):
         return "No setting of the sizing loop enters."
     if runs is None:
-        words.append("The runs with other settings hold no pair of this claim.")
+        words.append(f"The runs with other settings hold nothing of this claim{_spread(variants)}.")
     else:
-        base = runs["verdicts"][BASE]["verdict"]
-        words.append(f"On the {len(runs['designs'])} designs run with other settings: {_say(base)}")
-        others = [name for name in runs["verdicts"] if name != BASE]
-        same = [name for name in others if name not in runs["changed_by"]]
+        base, changes = runs["verdicts"][BASE]["verdict"], runs["changes"]
+        count = len(runs["designs"])
+        words.append(f"On the {count} designs run with other settings: {_say(base)}")
+        same = [name for name in runs["verdicts"] if name != BASE and name not in changes]
         if same:
-            words[-1] += f", and the same with {', '.join(same)}"
-        changed = [f"{_say(runs['verdicts'][n]['verdict'])} with {n}" for n in runs["changed_by"]]
+            words[-1] += f", with the same verdicts of all parts for {', '.join(same)}"
+        changed = [
+            f"with {name} " + ", ".join(f"{part}: {_say(v)}" for part, v in found.items())
+            for name, found in changes.items()
+        ]
         words[-1] += f"; {'; '.join(changed)}." if changed else "."
     if equal is not None and equal["verdict"] != UNTOLD:
         parts = ", ".join(f"{part}: {_say(v)}" for part, v in equal["parts"].items())
         words.append(f"At one thickness for all panels, before any sizing: {parts}.")
     return " ".join(words)
+
+
+def _spread(variants: Mapping[str, Sequence[Outcome]]) -> str:
+    """Return how much volumes change between those runs, for a reader to weigh differences by."""
+    base = {one.name: one.values["volume"] for one in variants.get(BASE, ())}
+    changes = {
+        name: max((abs(o.values["volume"] / base[o.name] - 1) for o in members), default=0.0)
+        for name, members in variants.items()
+        if base and name != BASE
+    }
+    shown = ", ".join(f"{100 * value:.3g} % with {name}" for name, value in changes.items())
+    return f"; volumes change there by up to {shown}" if shown else ""
 
 
 def _say(verdict: str) -> str:

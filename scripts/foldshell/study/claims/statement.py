@@ -37,7 +37,8 @@ STATEMENTS = {
 @dataclass(frozen=True)
 class Claim:
     """Findings of one claim. `judges` names parts that are not judged by `judge_part`; `open` are
-    parts that are reported beside the claim and do not enter its verdict."""
+    parts that are reported beside the claim and do not enter its verdict; `method` says what its
+    uncertainty is made of."""
 
     key: str
     findings: Sequence[Finding]
@@ -45,6 +46,7 @@ class Claim:
     open: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
     numbers: Mapping[str, Any] = field(default_factory=dict)
+    method: str | None = None
 
     @property
     def parts(self) -> dict[str, list[Finding]]:
@@ -78,20 +80,21 @@ def describe_claim(claim: Claim) -> dict[str, Any]:
         "numbers": {"parts": parts, "findings": [asdict(f) for f in claim.findings]}
         | dict(claim.numbers),
         "designs": sorted({name for f in claim.findings for name in f.designs}),
-        "uncertainty": describe_uncertainty(claim.findings),
+        "uncertainty": describe_uncertainty(claim),
         "notes": list(claim.notes),
     }
 
 
-def describe_uncertainty(findings: Sequence[Finding]) -> dict[str, Any]:
-    """Return the largest relative uncertainty of each quantity, and how it is made up."""
+def describe_uncertainty(claim: Claim) -> dict[str, Any]:
+    """Return the largest relative uncertainty of each quantity, and what it is made of."""
     largest: dict[str, float] = {}
-    for finding in findings:
+    for finding in claim.findings:
         known = [abs(value) for value in finding.values if value is not None]
         if finding.uncertainty and known and max(known):
             relative = finding.uncertainty / max(known)
             largest[finding.quantity] = max(largest.get(finding.quantity, 0.0), relative)
-    return {"largest_relative": largest, "method": METHOD if largest else EXACT}
+    method = claim.method or (METHOD if largest else EXACT)
+    return {"largest_relative": largest, "method": method}
 
 
 METHOD = (

@@ -63,6 +63,14 @@ SUPPORT_PARTS = {
 """Parts of C7: the quantity, the support with the greater value, the one with the lesser."""
 
 
+NAMES = (
+    "Which polylines the paper calls zig-zags is a reading; with the two names exchanged holds and "
+    "fails change places here. The reading taken is the one in which fewer zig-zags make the "
+    "section deeper (C8): the ridges run along the zig-zags, so that a sheet on its strip edges "
+    "spans along its ridges."
+)
+
+
 def judge_supports(
     outcomes: Sequence[Outcome], comparer: Comparer, equal: Sequence[Outcome] = ()
 ) -> Claim:
@@ -83,7 +91,7 @@ def judge_supports(
         for group in group_by_others(choose_folded(equal), "support")
         if {"strip", "zigzag"} <= set(group)
     ]
-    return Claim("C7", findings)
+    return Claim("C7", findings, notes=(NAMES,))
 
 
 def judge_zigzags(

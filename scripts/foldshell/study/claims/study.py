@@ -8,6 +8,7 @@ from foldshell.study.claims import limits, structure
 from foldshell.study.claims.outcome import Comparer, Outcome
 from foldshell.study.claims.planarity import describe_planarity
 from foldshell.study.claims.sensitive import (
+    SENSITIVE,
     describe_dependence,
     judge_equal_thickness,
     judge_variants,
@@ -70,16 +71,21 @@ def judge_study(
         limits.judge_folds(outcomes, flats, comparer),
         folding.judge_foldability(geometries),
     ]
-    described = [_describe(claim, equal, variants, comparer) for claim in claims]
+    described = [_describe(claim, outcomes, equal, variants, comparer) for claim in claims]
     return [*described, describe_planarity(outcomes)]
 
 
-def _describe(claim: Claim, equal, variants, comparer: Comparer) -> dict[str, Any]:
+def _describe(claim: Claim, outcomes, equal, variants, comparer: Comparer) -> dict[str, Any]:
+    entry = describe_claim(claim)
     runs = judge_variants(claim.key, variants, comparer)
     level = judge_equal_thickness(claim.key, equal, comparer)
-    words = describe_dependence(claim, runs, level)
-    sensitivity = {"words": words, "runs": runs, "equal_thickness": level}
-    return describe_claim(claim) | {"sensitivity": sensitivity}
+    words = describe_dependence(claim, runs, level, variants)
+    if claim.key in SENSITIVE:
+        own = [one for one in outcomes if one.name in entry["designs"]]
+        thin = sum(one.values["state"] == "at_minimum_thickness" for one in own)
+        words += f" {thin} of {len(own)} designs stand at the least thickness in every panel, "
+        words += "which alone then sets volume and utilization."
+    return entry | {"sensitivity": {"words": words, "runs": runs, "equal_thickness": level}}
 
 
 def choose_geometries(outcomes: Sequence[Outcome]) -> list[Outcome]:

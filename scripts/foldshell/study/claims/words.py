@@ -80,9 +80,15 @@ def _write_rows(rows: Sequence[Mapping[str, Mapping[str, Any]]]) -> str:
 
 
 def _describe_column(finding: Mapping[str, Any]) -> str:
-    unit, _ = _unit(finding)
+    unit, factor = _unit(finding)
     quantity = finding["quantity"].replace("_", " ").replace(", ", " / ")
-    return f"{finding['part']}: {quantity} [{unit}]"
+    limit = f", limit {show(finding['values'][1], factor)}" if _has_limit(finding) else ""
+    return f"{finding['part']}: {quantity} [{unit}]{limit}"
+
+
+def _has_limit(finding: Mapping[str, Any]) -> bool:
+    """Tell a number with its limit from two numbers that are compared."""
+    return len(finding["designs"]) == 1 and ", " not in finding["quantity"]
 
 
 def _unit(finding: Mapping[str, Any]) -> tuple[str, float]:
@@ -96,7 +102,8 @@ def _write_cell(finding: Mapping[str, Any], order: Sequence[str]) -> str:
     values = list(finding["values"])
     if list(finding["designs"]) != list(order):
         values.reverse()
-    numbers = " / ".join(show(value, factor) for value in values)
+    shown = values[:1] if _has_limit(finding) else values
+    numbers = " / ".join(show(value, factor) for value in shown)
     if finding["uncertainty"]:
         numbers += f" ± {finding['uncertainty'] * factor:.2g}"
     return f"{numbers}: {say(finding['verdict'])}"
@@ -108,7 +115,7 @@ def join_names(names: Sequence[str]) -> str:
         return names[0]
     first, second = (name.split("-") for name in names)
     if len(first) != len(second):
-        return " | ".join(names)
+        return " \\| ".join(names)
     return "-".join(
         a if a == b else f"{a}|{b}" for a, b in zip(first, second, strict=True)
     ).replace("|", "\\|")

@@ -1,0 +1,152 @@
+"""Scripts of the claims: runs with other settings, the flat sheet, and the claims themselves."""
+
+import json
+from functools import cache
+
+import numpy as np
+import pytest
+
+import claims
+import flat_equal
+import sensitivity
+from foldshell.shell.mesh_files import mesh_folded_sheet
+from foldshell.sizing.case import make_case
+from foldshell.sizing.iteration import IterationTask
+from foldshell.sizing.loop import run_loop
+from foldshell.study.errors import InputError
+from foldshell.study.files import read_json, write_arrays, write_json
+from foldshell.study.sensitivity import VARIANTS, change_settings, describe_variants
+from sizing_case import DESIGN, PANELS, SPAN, STRIP, ZIGZAG, corrugated_sheet, stage
+
+LAYOUT = (ZIGZAG, STRIP, "strip")
+ROW = DESIGN | {"support": "strip", "tags": "table1,supports"}
+SIZING = {"least_thickness": 0.1}
+
+
+@cache
+def _sized():
+    mesh = mesh_folded_sheet(corrugated_sheet(), "strip", 2)
+    settings = stage("size", **SIZING)
+    case = make_case(mesh, settings)
+    thickness = np.full(PANELS, settings["sizing"]["start_thickness"])
+    first = case.run(IterationTask(0, SPAN, thickness, {}, {}))
+    result = run_loop(case, SPAN, settings["sizing"])
+    return mesh, first, (result.reports[-1], result.arrays)
+
+
+def _write_design(folder):
+    mesh, first, last = _sized()
+    write_arrays(folder / "shell/mesh.npz", mesh)
+    planarity = np.linspace(0, 0.01, PANELS)
+    write_arrays(folder / "folded/folded.npz", corrugated_sheet() | {"planarity": planarity})
+    for path, (report, arrays) in (("00/analysis", first), ("final", last)):
+        write_json(folder / f"sizing/{path}.json", report)
+        write_arrays(folder / f"sizing/{path}.npz", arrays)
+    names = ("edge_strain_rms", "edge_strain_max", "planarity_max", "angle_defect_max_rad")
+    write_json(folder / "folded/quality.json", dict.fromkeys(names, 0.01))
+    errors = {"displacement_down_max_m": 0.02, "utilization_panel_mean_max": 0.01}
+    write_json(folder / "mesh_study.json", {"errors": {"S2": errors, "D2": errors}})
+    found = {"relative_difference": 0.01, "primary": 1.0, "primary_meshes": [1.02, 1.0]}
+    quantities = {f"{c} {q}": found for c in ("S2", "D2") for q in (*errors, "buckling_factor")}
+    write_json(folder / "crosscheck/comparison.json", {"pass": True, "quantities": quantities})
+
+
+def _write_study(results):
+    _write_design(results / "small")
+    write_json(results / "kinematics.json", {"ratios": [], "sheets": [], "strengths": []})
+    for variant in ("base", "start_60"):
+        sensitivity.main(
+            results / "small/shell/mesh.npz", results / f"sensitivity/{variant}/small.json",
+            design="small", variant=variant, span_m=SPAN, layout=LAYOUT,
+            settings=stage("size", **SIZING | {"start_thickness": 0.15}),
+        )  # fmt: skip
+
+
+def _judge(results):
+    paths = results / "claims.json", results / "claims.md", results / "sensitivity.csv"
+    designs = {"sized": [ROW], "folds": [], "runs": [ROW], "flats": []}
+    claims.main(results, *paths, designs=designs, variants=["base"], settings=stage("study"))
+    return [path.read_bytes() for path in paths]
+
+
+@pytest.fixture
+def study(tmp_path, monkeypatch):
+    monkeypatch.setitem(VARIANTS, "start_60", {"sizing": {"start_thickness": 0.12}})
+    _write_study(tmp_path)
+    return tmp_path
+
+
+def test_every_claim_has_a_verdict_and_the_same_bytes_again(study):
+    first = _judge(study)
+    entries = json.loads(first[0])
+    assert [entry["id"] for entry in entries] == [*(f"C{k}" for k in range(1, 15)),
+                                                  "open_planarity"]  # fmt: skip
+    allowed = {"holds", "fails", "mixed", "cannot_be_told"}
+    assert {entry["verdict"] for entry in entries} <= allowed
+    keys = {"id", "claim", "verdict", "numbers", "designs", "uncertainty"}
+    assert all(keys <= set(entry) for entry in entries)
+    assert _judge(study) == first
+    assert b"seconds" not in first[0]
+    assert b"volume of the loop in files for 1 of 1 designs" in first[1]
+
+
+def test_free_edges_of_a_design_on_strip_edges_enter(study):
+    entries = {entry["id"]: entry for entry in json.loads(_judge(study)[0])}
+    (finding,) = entries["C12"]["numbers"]["findings"]
+    assert finding["designs"] == ["small"] and min(finding["values"]) > 0
+    assert entries["C12"]["uncertainty"]["largest_relative"]
+    assert entries["C10"]["sensitivity"]["runs"]["designs"] == ["small"]
+
+
+def test_base_gives_the_numbers_of_the_loop_and_a_variant_its_own(study):
+    base, other = (read_json(study / f"sensitivity/{name}/small.json")["measures"]
+                   for name in ("base", "start_60"))  # fmt: skip
+    final = read_json(study / "small/sizing/final.json")
+    assert base["volume"] == final["volume_m3"]
+    assert base["displacement"] == final["displacement_vertical_max_m"]
+    assert other["iterations"] < base["iterations"]
+
+
+def test_a_missing_result_is_named(study):
+    (study / "small/mesh_study.json").unlink()
+    with pytest.raises(InputError, match=r"mesh_study\.json.*delete"):
+        _judge(study)
+
+
+def test_flat_sheet_has_the_volume_of_the_folded_one(tmp_path):
+    """Six by six metres and 2.7 m3: 75 mm."""
+    sheet = corrugated_sheet()
+    strip, zigzag = sheet["strip"] * 6 / (STRIP - 1), sheet["zigzag"] * 6 / (ZIGZAG - 1)
+    flat = sheet | {"vertices": np.column_stack([strip, zigzag, 0.0 * strip])}
+    write_arrays(tmp_path / "flat.npz", flat)
+    write_json(tmp_path / "final.json", {"volume_m3": 2.7})
+    paths = tmp_path / "flat.npz", tmp_path / "final.json", tmp_path / "flat_equal.json"
+    flat_equal.main(*paths, flat="flat-sheet", layout=LAYOUT, span_m=SPAN, subdivisions=2,
+                    settings=stage("size"))  # fmt: skip
+    found = read_json(paths[2])
+    assert found["thickness_m"] == pytest.approx(0.075) and found["sides_m"] == [6.0, 6.0]
+    assert found["state"] == "ok"
+    assert found["displacement_first_order_m"] == pytest.approx(
+        found["measures"]["displacement"], rel=0.2
+    )
+    assert 0 <= found["errors"]["displacement"][0] < 0.05
+
+
+def test_variants_change_what_they_say_and_nothing_else():
+    settings = stage("size")
+    for name, words in describe_variants().items():
+        changed = change_settings(settings, name)
+        different = [
+            (group, field)
+            for group in settings
+            for field in settings[group]
+            if settings[group][field] != changed[group][field]
+        ]
+        assert len(different) == (0 if name == "base" else 1)
+        assert all(field in words for _, field in different)
+    assert stage("size") == settings
+
+
+def test_a_variant_that_contradicts_the_settings_is_refused():
+    with pytest.raises(InputError, match=r"variant start_60: sizing\.start_thickness_mm: 60"):
+        change_settings(stage("size", least_thickness=0.08), "start_60")

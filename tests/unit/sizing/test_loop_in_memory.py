@@ -1,0 +1,62 @@
+"""The loop in memory and the loop of the entry scripts give the same numbers, to the last bit."""
+
+import json
+
+import numpy as np
+import pytest
+
+import analyse
+import resize
+import start
+from foldshell.sizing.case import open_case
+from foldshell.sizing.loop import run_loop
+from foldshell.study.files import read_arrays
+from sizing_case import SPAN, STRIP, ZIGZAG, stage, write_small_mesh
+
+FILES_ONLY = {"seconds", "edited", "workbook_sha256"}
+
+
+def _run_files(folder, mesh, **sizing):
+    """Run start, analyse and resize as the rules do; return reports and the last arrays."""
+    grid = {"zigzag": ZIGZAG, "strip": STRIP}
+    bounds = {name: stage("size", **sizing)["sizing"][name]
+              for name in ("start_thickness", "least_thickness", "largest_thickness")}  # fmt: skip
+    start.main(folder / "00/thickness.xlsx", folder / "00/written.json", design="small",
+               settings_hash="0" * 12, **grid, **bounds)  # fmt: skip
+    reports, previous = [], None
+    while not reports or reports[-1]["verdict"] == "continue":
+        number = len(reports)
+        step, before = folder / f"{number:02d}", folder / f"{number - 1:02d}"
+        if number:
+            memory = before / "memory.npz"
+            resize.main(
+                *previous, step / "thickness.xlsx", step / "memory.npz", step / "written.json",
+                design="small", settings=stage("resize", **sizing), settings_hash="0" * 12,
+                previous_memory=memory if memory.exists() else None, **grid,
+            )  # fmt: skip
+        paths = step / "analysis.json", step / "analysis.npz"
+        analyse.main(mesh, step / "thickness.xlsx", *paths, design="small", iteration=number,
+                     span_m=SPAN, settings=stage("analyse", **sizing), previous=previous,
+                     **grid)  # fmt: skip
+        previous = paths
+        reports.append(json.loads(paths[0].read_text()))
+    return reports, read_arrays(previous[1])
+
+
+@pytest.mark.parametrize(
+    "sizing", [{"least_thickness": 0.1}, {"rule": "optimality", "least_thickness": 0.1}]
+)
+def test_same_numbers_as_in_files(tmp_path, sizing):
+    mesh = write_small_mesh(tmp_path / "mesh.npz")
+    reports, arrays = _run_files(tmp_path, mesh, **sizing)
+    result = run_loop(open_case(mesh, stage("analyse", **sizing)), SPAN,
+                      stage("size", **sizing)["sizing"])  # fmt: skip
+    assert len(result.reports) == len(reports) > 2
+    for own, other in zip(result.reports, reports, strict=True):
+        plain = json.loads(json.dumps(own))
+        assert {k: v for k, v in plain.items() if k not in FILES_ONLY} == {
+            k: v for k, v in other.items() if k not in FILES_ONLY
+        }
+    assert set(arrays) == set(result.arrays)
+    for name, values in arrays.items():
+        assert np.array_equal(values, result.arrays[name]), name

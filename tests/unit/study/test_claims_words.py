@@ -1,0 +1,35 @@
+"""The page of claims: what stands in its tables."""
+
+from claims_case import make_outcome
+from foldshell.study.claims.outcome import Comparer
+from foldshell.study.claims.statement import Claim, describe_claim
+from foldshell.study.claims.structure import judge_supports
+from foldshell.study.claims.words import join_names, write_findings, write_section
+
+COMPARER = Comparer()
+
+
+def test_names_share_what_they_have_in_common():
+    assert join_names(["arch-28-strip", "arch-28-zigzag"]) == "arch-28-strip\\|zigzag"
+    assert join_names(["arch-28", "flat"]) == "arch-28 | flat".replace("|", "\\|")
+    assert join_names(["one"]) == "one"
+
+
+def test_a_row_holds_the_values_in_the_order_of_its_name():
+    """The evenness of C7 is claimed the other way round than the volume."""
+    designs = [
+        make_outcome({"utilization_variation": 0.3, "volume_per_area": 0.08}, support="strip"),
+        make_outcome({"utilization_variation": 0.5, "volume_per_area": 0.05}, support="zigzag"),
+    ]
+    entry = describe_claim(judge_supports(designs, COMPARER))
+    (table,) = write_findings(entry["numbers"]["findings"])
+    row = table.splitlines()[2]
+    assert "zigzag\\|strip" in row
+    assert "0.5 / 0.3 ± 0.029: holds" in row and "50 / 80 ± 4.8: holds" in row
+    assert "volume per area [mm]" in table
+
+
+def test_a_section_says_what_cannot_be_told():
+    entry = describe_claim(Claim("C6", [])) | {"sensitivity": {"words": "Nothing."}}
+    section = write_section(entry)
+    assert section.startswith("## C6: cannot be told") and "Sensitivity: Nothing." in section
