@@ -3,7 +3,6 @@
 import json
 import math
 import os
-import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -30,17 +29,20 @@ def read_json(path: str | Path) -> Any:
 
 @contextmanager
 def write_whole(path: str | Path) -> Iterator[Path]:
-    """Yield a temporary name beside `path` and rename it when the block succeeds."""
+    """Yield a temporary name beside `path` and rename it when the block succeeds.
+
+    Whatever a killed run left of the same file goes: one job alone writes a file.
+    """
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(prefix=".writing-", suffix=path.suffix, dir=path.parent)
-    os.close(handle)
+    for left in path.parent.glob(f".writing-*{path.name}"):
+        left.unlink(missing_ok=True)
+    temporary = path.with_name(f".writing-{os.getpid()}-{path.name}")
     try:
-        yield Path(name)
-        os.chmod(name, 0o644)
-        os.replace(name, path)
+        yield temporary
+        os.replace(temporary, path)
     finally:
-        Path(name).unlink(missing_ok=True)
+        temporary.unlink(missing_ok=True)
 
 
 def write_json(path: str | Path, data: Any) -> None:

@@ -51,6 +51,8 @@ def write_dxf(path: str | Path, drawing: Drawing, preset: str = "fold") -> None:
         for start, end in lines.tolist():
             space.add_line(start, end, dxfattribs={"layer": layer})
     space.add_lwpolyline(drawing.outline.tolist(), close=True, dxfattribs={"layer": "CUT"})
+    for name in sorted(document.entitydb.dxf_types_in_use()):  # ezdxf adds them in a set's order
+        document.classes.add_class(name)
     with atomic_path(path) as temporary:
         document.saveas(temporary)
 

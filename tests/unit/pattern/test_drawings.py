@@ -1,7 +1,11 @@
 """DXF and SVG of a crease pattern, read back by other libraries."""
 
 import math
+import os
+import subprocess
+import sys
 import xml.etree.ElementTree as ElementTree
+from pathlib import Path
 
 import ezdxf
 import numpy as np
@@ -10,6 +14,7 @@ import pytest
 from foldshell.pattern.drawings import draw_pattern, write_dxf, write_svg
 from foldshell.pattern.miura import Miura, flat_vertices
 
+SCRIPTS = Path(__file__).resolve().parents[3] / "scripts"
 PATTERN = Miura(1.3, 0.7, math.radians(60), 5, 6)
 
 
@@ -60,3 +65,17 @@ def test_same_lines_give_the_same_bytes(tmp_path, drawing):
     for suffix in ("dxf", "svg"):
         one, two = ((tmp_path / f"{n}.{suffix}").read_bytes() for n in "ab")
         assert one == two
+
+
+def test_another_process_gives_the_same_dxf(tmp_path):
+    """Sets of names have another order in every process."""
+    code = (
+        "import sys; from foldshell.pattern.drawings import *; import numpy as np; "
+        "write_dxf(sys.argv[1], Drawing(np.eye(3)[:, :2], {'VALLEY': np.ones((1, 2, 2))}))"
+    )
+    files = []
+    for seed in "0123":
+        files.append(tmp_path / f"{seed}.dxf")
+        environment = {**os.environ, "PYTHONHASHSEED": seed, "PYTHONPATH": str(SCRIPTS)}
+        subprocess.run([sys.executable, "-c", code, str(files[-1])], env=environment, check=True)
+    assert len({file.read_bytes() for file in files}) == 1
