@@ -1,0 +1,157 @@
+"""A design with an edge beam through all entry scripts from mesh to pictures."""
+
+import csv
+
+import meshio
+import numpy as np
+import openpyxl
+import pytest
+
+import analyse
+import draw
+import group
+import mesh
+import resize
+import size
+import start
+from foldshell.shell.mesh_files import read_mesh
+from foldshell.sizing.case import open_case
+from foldshell.sizing.iteration import IterationTask
+from foldshell.study.files import read_arrays, read_json, write_arrays
+from foldshell.study.summary import make_summary_row
+from foldshell.workbook.panels import make_panel_grid
+from foldshell.workbook.read_thickness import read_thickness
+from sizing_case import DESIGN, PANELS, SPAN, STRIP, ZIGZAG, corrugated_sheet, stage
+
+BEAM = [0.4, 0.1]
+STRIPS = 2 * (ZIGZAG - 1)
+PLACE = {"zigzag": ZIGZAG, "strip": STRIP}
+SIZES = {"edge_beam_depth_m": BEAM[0], "edge_beam_thickness_m": BEAM[1]}
+
+
+def write_mesh_files(folder):
+    sheet = corrugated_sheet() | {"planarity": np.zeros(PANELS)}
+    write_arrays(folder / "folded.npz", sheet)
+    paths = [folder / name for name in ("folded.npz", "mesh.npz", "mesh.vtu")]
+    mesh.main(*paths, design="small", support="zigzag", subdivisions=2, edge_beam=BEAM)
+    return paths[1]
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory):
+    """Run the entry scripts for one analysis; return the folder of the design."""
+    folder = tmp_path_factory.mktemp("design")
+    shell = write_mesh_files(folder)
+    loop, here = folder / "sizing", folder / "sizing/00"
+    start.main(
+        here / "thickness.xlsx", here / "written.json", design="small", **PLACE,
+        start_thickness=0.06, least_thickness=0.04, largest_thickness=1.0, settings_hash="",
+    )  # fmt: skip
+    files = here / "analysis.json", here / "analysis.npz"
+    analyse.main(
+        shell, here / "thickness.xlsx", *files, design="small", iteration=0, span_m=SPAN, **PLACE,
+        settings=stage("analyse", iterations_max=0),
+    )  # fmt: skip
+    after = loop / "01"
+    resize.main(
+        *files, after / "thickness.xlsx", after / "memory.npz", after / "written.json",
+        design="small", **PLACE, settings=stage("resize"), settings_hash="",
+    )  # fmt: skip
+    new = read_thickness(after / "thickness.xlsx", make_panel_grid(ZIGZAG, STRIP), 0.04, 1.0)
+    assert new.shape == (PANELS,)
+    classes = loop / "classes.json", loop / "classes.npz"
+    settings = stage("analyse")
+    group.main(shell, [files[0]], *classes, span_m=SPAN, classes=2, settings=settings)
+    size.main(
+        [files[0]], classes, loop / "history.csv", loop / "history.xlsx", folder / "design.xlsx",
+        loop / "final.json", loop / "final.npz", design=DESIGN | SIZES, settings=stage("size"),
+        settings_hash="0" * 12,
+    )  # fmt: skip
+    return folder
+
+
+def test_strips_are_reported_and_not_sized(folder):
+    """Volume of panels and strips adds up; the strips' utilization stands on its own."""
+    report = read_json(folder / "sizing/final.json")
+    arrays = read_arrays(folder / "sizing/final.npz")
+    shell, mesh_arrays = read_mesh(folder / "mesh.npz")
+    corner = mesh_arrays["vertices"][mesh_arrays["facets"]]
+    area = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    area = np.linalg.norm(area, axis=1) / 2
+    sheet, strips = np.split(area, [2 * PANELS])
+    assert arrays["thickness"].shape == arrays["utilization_panel_mean"].shape == (PANELS,)
+    assert report["edge_beam_volume_m3"] == pytest.approx(strips.sum() * BEAM[1])
+    total = 0.06 * sheet.sum() + strips.sum() * BEAM[1]
+    assert report["volume_m3"] == pytest.approx(total)
+    assert report["area_m2"] == pytest.approx(sheet.sum())
+    cell = arrays["utilization_cell"]
+    bare = shell.panel >= PANELS
+    assert report["edge_beam_utilization_max"] == cell[bare].max()
+    assert report["utilization_max"] == cell[~bare].max()
+    criterion = report["criteria"]["edge_beam_utilization"]
+    assert criterion["value"] == report["edge_beam_utilization_panel_mean_max"]
+    assert criterion["limit"] == 1.0
+
+
+def test_workbooks_and_summary_show_the_edge_beam(folder):
+    with open(folder / "sizing/history.csv", newline="") as file:
+        (row,) = csv.DictReader(file)
+    report = read_json(folder / "sizing/final.json")
+    assert float(row["edge_beam_utilization_max"]) == report["edge_beam_utilization_max"]
+    book = openpyxl.load_workbook(folder / "design.xlsx", read_only=True)
+    words = dict(line[:2] for line in book["summary"].iter_rows(values_only=True))
+    assert words["edge beam depth"] == BEAM[0]
+    assert words["edge beam utilization max"] == pytest.approx(report["edge_beam_utilization_max"])
+    assert len(list(book["panels"].iter_rows())) == 2 + PANELS
+    line = make_summary_row(DESIGN | SIZES, folder, "")
+    assert line["edge_beam_depth_m"] == BEAM[0]
+    assert line["edge_beam_utilization_max"] == report["edge_beam_utilization_max"]
+    plain = make_summary_row(DESIGN | dict.fromkeys(SIZES, 0.0), folder, "")
+    assert plain["edge_beam_depth_m"] is None
+
+
+@pytest.mark.slow
+def test_pictures_and_fields_show_the_strips(folder):
+    names = ("thickness", "classes", "utilization", "planarity")
+    pictures = {name: folder / f"{name}.png" for name in names}
+    loop = folder / "sizing"
+    figures = {"figures": {"width_px": 320, "height_px": 240}}
+    draw.main(
+        folder / "mesh.npz", folder / "folded.npz", loop / "final.npz", loop / "final.json",
+        loop / "classes.npz", folder / "design.vtu", folder / "lines.vtu", pictures,
+        design="small", span_m=SPAN, pattern="miura", settings=stage("size") | figures,
+    )  # fmt: skip
+    assert all(path.stat().st_size > 1000 for path in pictures.values())
+    fields = {
+        name: values[0] for name, values in meshio.read(folder / "design.vtu").cell_data.items()
+    }
+    strips = fields["panel"] >= PANELS
+    assert np.unique(fields["panel"]).size == PANELS + STRIPS
+    assert (fields["thickness"][strips] == BEAM[1]).all()
+    assert (fields["thickness_class"][strips] == 0).all()
+    assert (fields["class_thickness"][strips] == BEAM[1]).all()
+
+
+def test_gradients_of_the_constraints_leave_the_strips_out(folder):
+    """d(utilization of the strips' worst panel)/dt of a panel against a central difference."""
+    limit = 0.3
+    settings = stage("analyse", rule="optimality", utilization_max=limit, utilization_min=0.1)
+    settings = settings | {"analysis": settings["analysis"] | {"second_order": False}}
+    case = open_case(folder / "mesh.npz", settings)
+    base = np.full(PANELS, 0.004)
+
+    def run(thickness):
+        return case.run(IterationTask(0, SPAN, thickness, {}, {}))
+
+    report, arrays = run(base)
+    strips = arrays["edge_beam_utilization_panel_mean"]
+    assert arrays["panel_area"].shape == (PANELS,)
+    assert arrays["constraint_gradient"].shape == (len(arrays["constraint_value"]), PANELS)
+    assert report["criteria"]["edge_beam_utilization"]["value"] == strips.max() > limit
+    row = int(np.argmin(np.abs(arrays["constraint_value"] - strips.max() / limit)))
+    panel = int(np.abs(arrays["constraint_gradient"][row]).argmax())
+    step = 1e-6 * np.eye(PANELS)[panel]
+    up, down = (run(base + sign * step)[1] for sign in (1, -1))
+    name = "edge_beam_utilization_panel_mean"
+    slope = (up[name] - down[name])[strips.argmax()] / 2e-6 / limit
+    assert arrays["constraint_gradient"][row, panel] == pytest.approx(slope, rel=1e-3)
