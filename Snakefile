@@ -56,6 +56,7 @@ rule all:
         study_files(SETTINGS.study),
         f"{RESULTS}/summary.csv",
         f"{RESULTS}/summary.xlsx",
+        f"{RESULTS}/report.html",
 
 
 include: "rules/pattern.smk"
@@ -65,6 +66,7 @@ include: "rules/sizing.smk"
 include: "rules/crosscheck.smk"
 include: "rules/study.smk"
 include: "rules/deliver.smk"
+include: "rules/report.smk"
 
 
 for TAG in sorted({tag for design in DESIGNS for tag in design.tags}):

@@ -42,7 +42,12 @@ rule page:
         library=library("page"),
         assets=assets("page.css", "stage.html", "viewer.js"),
     output:
-        page=f"{RESULTS}/{{design}}/page.html",
+        page=report(
+            f"{RESULTS}/{{design}}/page.html",
+            category="4 Designs",
+            caption="../docs/report/page.rst",
+            labels={"design": "{design}"},
+        ),
     params:
         design=lambda wildcards: BY_NAME[wildcards.design].to_row(),
         settings=of_stage("size"),
@@ -55,6 +60,16 @@ rule page:
 CHARTS = ["supports", "surface", "curvature", "density_zigzag", "density_strip", "axes"]
 CHARTS += ["planarity_utilization"]
 SHEETS = ["all_thickness", "all_utilization"]
+
+
+def figure(name):
+    """Return a figure over all designs, flagged for the report."""
+    return report(
+        f"{RESULTS}/figures/{name}.png",
+        category="3 Figures",
+        caption="../docs/report/figure.rst",
+        labels={"figure": name.replace("_", " ")},
+    )
 
 
 rule study_figures:
@@ -70,8 +85,8 @@ rule study_figures:
         ],
         library=library("study_figures"),
     output:
-        **{name: multiext(f"{RESULTS}/figures/{name}", ".png", ".svg") for name in CHARTS},
-        **{name: f"{RESULTS}/figures/{name}.png" for name in SHEETS},
+        **{name: [figure(name), f"{RESULTS}/figures/{name}.svg"] for name in CHARTS},
+        **{name: figure(name) for name in SHEETS},
     params:
         results=RESULTS,
         settings=stage_parameters(SETTINGS, "size"),

@@ -39,11 +39,13 @@ def make_study(folder: Path, designs: str = DESIGNS, settings: dict | None = Non
 
 def copy_code(folder: Path) -> Path:
     """Copy the workflow, so that an edit of the project during a test does not disturb it."""
-    for name in ("scripts", "rules", "envs", "profiles"):
+    for name in ("scripts", "rules", "envs", "profiles", "docs/report"):
         ignore = shutil.ignore_patterns("__pycache__")
         shutil.copytree(REPOSITORY / name, folder / name, ignore=ignore)
     shutil.copytree(REPOSITORY / "config", folder / "config")
-    shutil.copy2(REPOSITORY / "Snakefile", folder / "Snakefile")
+    for name in ("Snakefile", "tests/verification/README.md"):
+        (folder / name).parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(REPOSITORY / name, folder / name)
     return folder
 
 

@@ -1,0 +1,33 @@
+"""Rule report: Snakemake's own report of what is done, in one HTML file."""
+
+import json
+import subprocess
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from foldshell.study.errors import InputError, user_errors
+from foldshell.study.files import atomic_path
+
+
+def main(report: str | Path, snakefile: str, target: str, config: Mapping[str, Any]) -> None:
+    """Let a second Snakemake, which runs no job, gather what is flagged below `target`.
+
+    It works in the same folder while the first one holds the lock, and gets the same `config`
+    from the command line.
+    """
+    with atomic_path(report) as temporary:
+        command = [sys.executable, "-m", "snakemake", "--nolock", "--cores", "1", "-s", snakefile]
+        command += ["--report", str(temporary), target]
+        if config:
+            command += ["--config", *(f"{key}={json.dumps(v)}" for key, v in config.items())]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
+        if done.returncode or not temporary.stat().st_size:
+            last = (done.stderr.strip().splitlines() or ["no message"])[-1]
+            raise InputError(f"{report}: snakemake --report: {last}: it must end without an error")
+
+
+if "snakemake" in globals():
+    with user_errors():
+        main(snakemake.output.report, **snakemake.params)  # noqa: F821

@@ -1,0 +1,48 @@
+"""Rule report_pages: summary, verification and settings as pages for the report."""
+
+import platform
+from collections.abc import Mapping, Sequence
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+from foldshell.report.study_pages import (
+    write_markdown_page,
+    write_settings_page,
+    write_summary_page,
+)
+from foldshell.study.errors import user_errors
+from foldshell.study.files import atomic_path
+from foldshell.study.stages import settings_hash
+
+PACKAGES = ("snakemake", "numpy", "scipy", "vtk", "meshio", "XlsxWriter", "openpyxl", "Pillow",
+            "matplotlib")  # fmt: skip
+
+
+def main(
+    summary: str | Path,
+    verification: Sequence[str | Path],
+    pages: Mapping[str, str | Path],
+    settings: Mapping[str, Any],
+) -> None:
+    """Write `pages`: summary, verification (of Markdown files), settings."""
+    versions = {"python": platform.python_version()} | {name: version(name) for name in PACKAGES}
+    text = "\n\n".join(Path(path).read_text(encoding="utf-8") for path in verification)
+    written = {
+        "summary": write_summary_page(summary),
+        "verification": write_markdown_page("Verification", text),
+        "settings": write_settings_page(settings, settings_hash(settings), versions),
+    }
+    for name, page in written.items():
+        with atomic_path(pages[name]) as temporary:
+            temporary.write_text(page, encoding="utf-8")
+
+
+if "snakemake" in globals():
+    with user_errors():
+        main(
+            snakemake.input.summary,  # noqa: F821
+            snakemake.input.verification,  # noqa: F821
+            dict(snakemake.output.items()),  # noqa: F821
+            snakemake.params.settings,  # noqa: F821
+        )
