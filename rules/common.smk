@@ -1,7 +1,10 @@
 # What the rules of all stages share: designs by name, parameters of a stage, library files.
 
+import functools
 import json
 import math
+
+from snakemake.exceptions import IncompleteCheckpointException
 
 from foldshell.study.designs import SURFACES, select_designs
 from foldshell.study.imports import write_library_list
@@ -43,7 +46,8 @@ def edge_beam(wildcards):
 
 def of_stage(stage):
     """Return a function of the wildcards that gives the plain settings of a stage."""
-    return lambda wildcards: stage_parameters(SETTINGS, stage, BY_NAME[wildcards.design])
+    known = functools.cache(lambda name: stage_parameters(SETTINGS, stage, BY_NAME[name]))
+    return lambda wildcards: known(wildcards.design)
 
 
 def surface_file(wildcards):
@@ -73,11 +77,16 @@ def memory_before_last(wildcards):
 def iterations(wildcards):
     """Return every analysis.json up to the first whose verdict ends the loop.
 
-    A file that cannot be read ends the list; `size` says what is wrong with it.
+    A file that cannot be read ends the list; `size` says what is wrong with it. An analysis that
+    is still to be made is returned as what it is waited for. Leaving that to Snakemake, which
+    does the same with the exception, makes it look at all loops twice after each analysis.
     """
     files = []
     for number in range(100):
-        step = checkpoints.analyse.get(design=wildcards.design, iteration=f"{number:02d}")
+        try:
+            step = checkpoints.analyse.get(design=wildcards.design, iteration=f"{number:02d}")
+        except IncompleteCheckpointException as missing:
+            return [missing.targetfile]
         files.append(step.output.json)
         try:
             going_on = json.loads(Path(files[-1]).read_text())["verdict"] == "continue"
