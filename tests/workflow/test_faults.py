@@ -21,6 +21,8 @@ from study_runner import (
     run_until_files,
 )
 
+pytestmark = pytest.mark.slow
+
 TARGET = "results/summary.csv"
 ONE_DESIGN = "results/tiny-dome/design.xlsx"
 KILLS = 40
@@ -64,7 +66,6 @@ def kill_something(process, chance):
     return victim
 
 
-@pytest.mark.slow
 def test_forty_kills_leave_the_results_of_an_undisturbed_run(code, undisturbed, tmp_path):
     """Scheduler and jobs die at random moments until the study is done; then another one."""
     chance, kills, studies = random.Random(5), 0, 0
@@ -103,7 +104,6 @@ def test_a_second_start_is_refused_and_harms_nothing(code, undisturbed, tmp_path
     assert results(folder) == results(undisturbed)
 
 
-@pytest.mark.slow
 def test_a_full_disk_is_said_and_nothing_is_lost_once_it_is_freed(code, undisturbed, tmp_path):
     """A limit on the size of files stands for a disk without space."""
     folder, limit = make_study(tmp_path / "full"), (20_000, 20_000)
@@ -122,7 +122,6 @@ def test_a_full_disk_is_said_and_nothing_is_lost_once_it_is_freed(code, undistur
     assert results(folder) == results(undisturbed)
 
 
-@pytest.mark.slow
 def test_settings_changed_half_way_give_what_they_give_from_scratch(code, tmp_path):
     """Iterations that were sized by the old settings are not mixed with new ones."""
     folder, fresh = make_study(tmp_path / "changed"), make_study(tmp_path / "fresh")
@@ -138,7 +137,6 @@ def test_settings_changed_half_way_give_what_they_give_from_scratch(code, tmp_pa
     assert results(folder) == results(fresh)
 
 
-@pytest.mark.slow
 def test_verify_finds_and_mends_what_snakemake_does_not_notice(code, undisturbed, tmp_path):
     """A deleted analysis in the middle, a cut mesh, a number changed in the final state."""
     folder = tmp_path / "spoilt"
