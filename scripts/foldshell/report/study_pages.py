@@ -49,7 +49,7 @@ def write_summary_page(path: str | Path) -> str:
     )
     body = "\n".join(_write_row(row, columns) for row in rows)
     lead = (
-        f"{len(rows)} {'design' if len(rows) == 1 else 'designs'}: {words}. The independent code agrees within its tolerances on "
+        f"{words}: {len(rows)} in all. The independent code agrees within its tolerances on "
         f"{checked}. A click on a heading sorts; the name of a design leads to its page."
     )
     table = (

@@ -1,0 +1,100 @@
+"""Rule page: one file a design, whatever became of it."""
+
+import html
+import re
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+
+import page
+from foldshell.report import page as library
+from foldshell.report.arrays import unpack_arrays
+from unit.report.report_cases import DESIGN, SETTINGS, read_data, write_files
+
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("chrome")
+
+
+def run(folder, design=DESIGN, **options):
+    """Call the script's main; return the page's text."""
+    folder.mkdir(exist_ok=True)
+    paths, pictures = write_files(folder, **options)
+    page.main(paths, pictures, folder / "page.html", design=design, settings=SETTINGS)
+    return (folder / "page.html").read_text(encoding="utf-8")
+
+
+def test_page_holds_everything_that_is_said_of_the_design(tmp_path):
+    """Verdict, criteria, cross-check, classes, history, picture; arrays that can be read back."""
+    text = run(tmp_path, criteria={"utilization_max": {"value": 0.4, "limit": 1.0, "met": True}})
+    words = html.unescape(re.sub(r"<[^>]*>", " ", text.split("<script", maxsplit=1)[0]))
+    for part in ("converged", "all criteria are met", "utilization max", "not within tolerance",
+                 "S2 work [kNm]", "+12.0 %", "history", "planarity"):  # fmt: skip
+        assert part in words or part in text
+    assert "data:image/webp;base64," in text
+    facts, packed = read_data(text)
+    arrays = unpack_arrays(facts["arrays"], packed)
+    assert {f"field_{field['name']}" for field in facts["fields"]} < set(arrays)
+
+
+def test_page_asks_no_host(tmp_path):
+    """No address but the files beside it; the policy forbids the rest."""
+    text = run(tmp_path)
+    assert "default-src 'none'" in text
+    assert not re.search(r"(?:src|href)=\"(?:https?:)?//", text)
+    assert "http" not in text.replace("http-equiv", "")
+
+
+def test_hostile_texts_stay_texts(tmp_path):
+    """A reason that closes the script is shown as it is."""
+    evil = "</script><script>alert(1)</script>"
+    text = run(tmp_path, design=DESIGN | {"tags": evil}, reason=evil)
+    assert text.count("<script") == text.count("</script>") == 3
+    assert "&lt;script&gt;alert(1)" in text
+
+
+@pytest.mark.parametrize("pattern", ["miura", "smooth", "flat"])
+def test_unstable_and_plain_designs_have_a_page(tmp_path, pattern):
+    """No displacements, no classes, no criteria, one analysis: the page says so."""
+    text = run(
+        tmp_path, DESIGN | {"pattern": pattern}, folded=pattern != "flat", utilization=None,
+        move=lambda x: np.nan * x, classes=False, history=False, verdict="unstable",
+        reason="a mechanism", buckling_factor={"S1": None}, iteration=0,
+        comparison={"pass": False, "reason": "nothing to compare", "quantities": {}},
+    )  # fmt: skip
+    for part in ("unstable", "a mechanism", "No criteria", "nothing to compare", "1 analysis"):
+        assert part in text
+    facts, _ = read_data(text)
+    assert [field["name"] for field in facts["fields"]] == ["thickness", "planarity"]
+
+
+def test_pictures_give_way_to_the_size_limit(tmp_path, monkeypatch):
+    """A page that is too large drops its pictures; one that still is, is refused."""
+    full = run(tmp_path)
+    monkeypatch.setattr(library, "SIZE_MAX", len(full.encode()) - 1)
+    assert "data:image/webp" not in run(tmp_path)
+    monkeypatch.setattr(library, "SIZE_MAX", 1000)
+    with pytest.raises(ValueError, match="1000 at most"):
+        run(tmp_path)
+
+
+def test_same_files_same_bytes(tmp_path):
+    """Two runs write the same page."""
+    assert run(tmp_path / "a") == run(tmp_path / "b")
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium")
+@pytest.mark.parametrize("width", [600, 1400])
+def test_page_draws_in_a_browser(tmp_path, width):
+    """The 3D view says it is ready, and the largest field can be chosen by the address."""
+    run(tmp_path)
+    command = [
+        CHROMIUM, "--headless", "--no-sandbox", "--use-angle=swiftshader",
+        "--enable-unsafe-swiftshader", f"--user-data-dir={tmp_path / 'browser'}",
+        f"--window-size={width},900", "--virtual-time-budget=20000", "--dump-dom",
+        f"{(tmp_path / 'page.html').as_uri()}#field=utilization&panel=7",
+    ]  # fmt: skip
+    done = subprocess.run(command, capture_output=True, text=True, timeout=180, check=True)
+    assert 'data-state="ready"' in done.stdout
+    assert "panel 7 · zigzag 1 · strip 2" in done.stdout
