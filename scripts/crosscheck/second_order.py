@@ -13,7 +13,7 @@ import numpy as np
 from crosscheck.stress import compute_membrane_forces
 from crosscheck.system import Response, System, solve_local
 
-TOLERANCE = 1e-6
+TOLERANCE = 1e-6  # last change of displacements
 ITERATIONS = 80
 MEMORY = 6  # steps that the acceleration looks back
 DIVERGED = 1e6  # times the first-order answer
@@ -59,7 +59,9 @@ def apply_geometric(system: System, matrices: np.ndarray, local: np.ndarray) -> 
     return total
 
 
-def solve_second_order(system: System, forces: np.ndarray, first: Response) -> SecondOrder:
+def solve_second_order(
+    system: System, forces: np.ndarray, first: Response, tolerance: float = TOLERANCE
+) -> SecondOrder:
     """Fixed point u <- inverse(K) (F - Kg(N(u)) u), with Anderson acceleration a combination.
 
     `forces` (F, R, 3, c) act on facet nodes; `first` is the first-order answer, where it starts.
@@ -77,7 +79,7 @@ def solve_second_order(system: System, forces: np.ndarray, first: Response) -> S
         if not np.isfinite(size).all() or (size > DIVERGED * _norm(first.local)).any():
             break
         change = _norm(residual) / size
-        if (change < TOLERANCE).all():
+        if (change < tolerance).all():
             return SecondOrder(response, count, change)
         history = [*history[-MEMORY:], (response.local, residual)]
         now = _accelerate(history)

@@ -15,6 +15,7 @@ from crosscheck.model import Model
 from crosscheck.second_order import NotSettled, solve_second_order
 from crosscheck.system import Response
 
+CHANGE = 1e-5  # at which second order has settled: mesh errors are a thousand times larger
 LARGEST_FACTOR = 1e6  # beyond it nothing buckles; a number that JSON can hold
 
 
@@ -39,23 +40,37 @@ def list_stability_values(analysis: Analysis, second_order: bool) -> dict[str, d
         for name, factor in zip(names, factors, strict=True)
     }
     if second_order:
-        for case in np.flatnonzero(factors > 1.0):
-            try:
-                values = _solve_combination(analysis, int(case))
-            except NotSettled:
-                continue
-            result[f"{names[case]} {SECOND_ORDER}"] = values
+        result |= _list_second_order(analysis, np.flatnonzero(factors > 1.0))
     return result
 
 
-def _solve_combination(analysis: Analysis, case: int) -> dict[str, object]:
-    first = analysis.response
+def _list_second_order(analysis: Analysis, cases: np.ndarray) -> dict[str, dict[str, object]]:
+    """Second-order values of some combinations: all at once, or those alone that settle alone."""
+    if not len(cases):
+        return {}
+    try:
+        return _solve_combinations(analysis, cases)
+    except NotSettled:
+        apart = [cases[[k]] for k in range(len(cases))] if len(cases) > 1 else []
+    result = {}
+    for case in apart:
+        result |= _list_second_order(analysis, case)
+    return result
+
+
+def _solve_combinations(analysis: Analysis, cases: np.ndarray) -> dict[str, dict[str, object]]:
+    first, names = analysis.response, list(analysis.model.compared_combinations)
     start = Response(
-        first.local[..., [case]], first.displacement[..., [case]], first.reaction_sum[:, [case]]
+        first.local[..., cases], first.displacement[..., cases], first.reaction_sum[:, cases]
     )
-    state = solve_second_order(analysis.system, analysis.forces[..., [case]], start)
-    loads = sum_loads(analysis.system.grid, analysis.surface[..., [case]])
-    return measure_response(analysis, state.response, 0, analysis.forces[..., case]) | {
-        "reaction_sum_kn": state.response.reaction_sum[:, 0].tolist(),
-        "load_sum_kn": loads[:, 0].tolist(),
+    forces = analysis.forces[..., cases]
+    state = solve_second_order(analysis.system, forces, start, CHANGE).response
+    loads = sum_loads(analysis.system.grid, analysis.surface[..., cases])
+    return {
+        f"{names[case]} {SECOND_ORDER}": measure_response(analysis, state, k, forces[..., k])
+        | {
+            "reaction_sum_kn": state.reaction_sum[:, k].tolist(),
+            "load_sum_kn": loads[:, k].tolist(),
+        }
+        for k, case in enumerate(cases.tolist())
     }
