@@ -130,7 +130,7 @@ def draw_bars(
         else:
             axes.text(place, 0, f" {members[name].state.replace('_', ' ')}", rotation=90,
                       ha="center", va="bottom", fontsize=11)  # fmt: skip
-    turned = max(len(name) for name in values) * len(values) > 26
+    turned = max(len(name) for name in series) * len(series) > 24
     axes.set_xticks(range(len(values)), values, rotation=30 if turned else 0,
                     ha="right" if turned else "center", rotation_mode="anchor")  # fmt: skip
     axes.set_xlim(-0.6, len(series) - 0.4)
@@ -195,9 +195,11 @@ def save_figure(figure: Figure, paths: Sequence[str | Path]) -> None:
 
 
 def _legend(axes: Sequence[Axes]) -> tuple[list, list[str]]:
-    """Return handles and labels of all axes, each label once."""
+    """Return handles and labels of all axes, each label once, the limit last."""
     found: dict[str, object] = {}
     for one in axes:
         for handle, label in zip(*one.get_legend_handles_labels(), strict=True):
             found.setdefault(label, handle)
+    if "limit" in found:
+        found["limit"] = found.pop("limit")
     return list(found.values()), list(found)

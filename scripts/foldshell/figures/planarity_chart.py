@@ -33,13 +33,15 @@ def draw_planarity_chart(designs: Sequence[StudyDesign]) -> Figure:
         if not groups:
             return draw_words("Planarity and utilization: no folded design with a utilization")
         figure, axes = plt.subplots(
-            1, len(groups), figsize=(10, 4.9), squeeze=False, sharey=True, layout="constrained"
+            1, len(groups), figsize=(10, 5.2), squeeze=False, sharey=True, layout="constrained"
         )
         for one, (surface, panels) in zip(axes[0], groups.items(), strict=True):
             shown = draw_panels(one, np.concatenate(panels, axis=1))
             one.set_title(f"{surface}\n{describe_correlation(panels)}", fontsize=12)
         axes[0, 0].set_ylabel("mean utilization of the panel [-]")
         figure.colorbar(shown, ax=axes, label="panels", pad=0.01)
+        handles, labels = axes[0, 0].get_legend_handles_labels()
+        figure.legend(handles, labels, loc="outside lower center", frameon=False)
         figure.suptitle("Planarity and utilization", fontsize=16, fontweight="bold")
         return figure
 
@@ -54,7 +56,6 @@ def draw_panels(axes: Axes, panels: np.ndarray):
     axes.set_xlabel("distance of diagonals /\ntheir mean length [%]")
     axes.set_xlim(left=0)
     axes.set_ylim(bottom=0)
-    axes.legend(loc="upper right", frameon=False, fontsize=11)
     return shown
 
 
