@@ -1,9 +1,10 @@
 """Rule mesh: the shell mesh of a folded sheet with its supports."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
+from typing import Any
 
-from foldshell.shell.edge_beams import make_edge_beam
+from foldshell.shell.edge_beams import find_piercing, make_edge_beam
 from foldshell.shell.mesh_files import mesh_folded_sheet, read_mesh, write_mesh, write_mesh_vtu
 from foldshell.study.errors import InputError, user_errors
 from foldshell.study.files import read_arrays
@@ -21,15 +22,28 @@ def main(
 ) -> None:
     """Read folded.npz, write mesh.npz (for the analysis) and mesh.vtu (to look at).
 
-    `edge_beam` holds the depth and the thickness of its strips, m.
+    `edge_beam` holds the depth and the thickness of its strips, m. Strips that pierce the sheet are
+    refused.
     """
     folded, strips = read_arrays(folded_path), make_edge_beam(*edge_beam)
     try:
         arrays = mesh_folded_sheet(folded, support, subdivisions, edge_beam=strips)
     except ValueError as error:
         raise InputError(f"design {design}: mesh: {error}") from None
+    if strips:
+        _check_strips(arrays, len(folded["facets"]), design)
     write_mesh(mesh_path, arrays)
     write_mesh_vtu(vtu_path, read_mesh(mesh_path)[0], arrays)
+
+
+def _check_strips(arrays: Mapping[str, Any], sheet: int, design: str) -> None:
+    place = find_piercing(arrays["vertices"], arrays["facets"], sheet)
+    if place is not None:
+        raise InputError(
+            f"design {design}: edge_beam_depth_m: the strip pierces the sheet near "
+            f"{place.round(2).tolist()} m: a strip clear of it is allowed, such as one of the "
+            "other sign, which stands on the other side of the border"
+        )
 
 
 if "snakemake" in globals():

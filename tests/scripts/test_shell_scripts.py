@@ -146,6 +146,17 @@ def beam_folder(tmp_path):
     return tmp_path
 
 
+def test_a_strip_that_pierces_the_sheet_is_refused(tmp_path):
+    """A leaf of the sheet that is folded back under its own border stands in the way."""
+    sheet = corrugated_sheet()
+    sheet["vertices"][sheet["strip"] == 1] += [-3.5, 0, -0.9]
+    write_arrays(tmp_path / "folded.npz", sheet)
+    files = [tmp_path / name for name in ("folded.npz", "mesh.npz", "mesh.vtu")]
+    with pytest.raises(InputError, match="design small: edge_beam_depth_m: the strip pierces"):
+        mesh.main(*files, design="small", support="zigzag", subdivisions=2, edge_beam=[3.0, 0.1])
+    assert not files[1].exists()
+
+
 def test_neutral_model_of_an_edge_beam_names_the_panels_without_area_loads(beam_folder):
     """Another format, so that a program that does not know those panels refuses the file."""
     neutral_model.main(

@@ -2,6 +2,8 @@
 
 Each free border edge a-b gets the parallelogram a, b, b - d z, a - d z: vertical, so that it is
 planar and well defined however the border runs, and so that neighbours share their vertical edge.
+With a depth d below 0 the strip stands up from the border, which suits sheets that fall away from
+it steeply.
 """
 
 from dataclasses import dataclass
@@ -13,7 +15,7 @@ from foldshell.shell.reference import EDGES
 
 @dataclass(frozen=True)
 class EdgeBeam:
-    """Depth below the edge and thickness of the strip, m."""
+    """Depth below the edge (above it if negative) and thickness of the strip, m."""
 
     depth: float
     thickness: float
@@ -70,3 +72,15 @@ def hang_strips(
         quads[:, [[0, 1, 3], [1, 2, 3]]],
     )
     return vertices, np.concatenate([facets, halves.reshape(-1, 3)])
+
+
+def find_piercing(vertices: np.ndarray, facets: np.ndarray, sheet: int) -> np.ndarray | None:
+    """Return where (3,) m a strip passes through the sheet or another strip, None if none does.
+
+    The first `sheet` facets are those of the sheet, whose own intersections do not count.
+    """
+    from foldshell.folding.intersections import find_intersections
+
+    pairs = find_intersections(vertices, facets)
+    pairs = pairs[(pairs >= sheet).any(axis=1)]
+    return vertices[facets[pairs[0].max()]].mean(axis=0) if len(pairs) else None

@@ -174,7 +174,7 @@ def cell(column: str, value: str) -> str:
         (cell("support", "edges"), "one of all, zigzag, strip"),
         (cell("fold_mode", "papper"), "the nearest is paper"),
         (cell("edge_beam_depth_m", "0.01"), "edge_beam_depth_m: 0.01: 0 for none or a number in m"),
-        (cell("edge_beam_depth_m", "6"), "0.05 to 5 is allowed"),
+        (cell("edge_beam_depth_m", "6"), "0.05 to 5, or of -5 to -0.05 is allowed"),
         (cell("edge_beam_thickness_m", "-1"), "0.02 to 2 is allowed"),
         (cell("edge_beam_thickness_m", "0,15"), "write 0.15 with a decimal point"),
         (cell("edge_beam_thickness_m", ""), "edge_beam_thickness_m: 0 beside edge_beam_depth_m"),
