@@ -22,11 +22,12 @@ def flat_of(design):
     return found[0] if found else None
 
 
+STUDIED = [d for d in with_tags("supports") if SETTINGS.study in d.tags]
 JUDGED = {
     "sized": with_tags(SETTINGS.study, "baseline"),
     "folds": with_tags("fold_modes"),
-    "runs": with_tags("supports"),
-    "flats": [d for d in with_tags("supports") if d.pattern == "miura" and flat_of(d)],
+    "runs": STUDIED,
+    "flats": [d for d in STUDIED if d.pattern == "miura" and flat_of(d)],
 }
 SIZED = ["folded/folded.npz", "folded/quality.json", "shell/mesh.npz", "mesh_study.json"]
 SIZED += ["sizing/00/analysis.json", "sizing/00/analysis.npz", "sizing/final.json"]

@@ -119,3 +119,14 @@ def test_a_flat_sheet_that_buckles_does_not_stand():
     design = make_outcome()
     (finding,) = limits.judge_folds([design], {design.name: _flat(None, 2.0)}, COMPARER).findings
     assert finding.verdict == "holds" and finding.values == (2.0, 0.05)
+
+
+def test_sized_flat_sheets_stand_beside_the_claim():
+    designs = [
+        make_outcome({"volume": v}, pattern=p) for p, v in (("flat", 700.0), ("miura", 80.0))
+    ]
+    claim = limits.judge_folds(designs, {designs[1].name: _flat(3.0)}, COMPARER)
+    verdict, parts = claim.judge()
+    assert verdict == "holds" and parts[limits.SIZED] == "holds"
+    (sized,) = [finding for finding in claim.findings if finding.part == limits.SIZED]
+    assert sized.values == (700.0, 80.0)

@@ -6,7 +6,14 @@ from dataclasses import replace
 from typing import Any
 
 from foldshell.study.claims.finding import HOLDS, Finding, judge_many
-from foldshell.study.claims.outcome import Comparer, Outcome, choose, choose_folded, state_fact
+from foldshell.study.claims.outcome import (
+    Comparer,
+    Outcome,
+    choose,
+    choose_folded,
+    group_by_others,
+    state_fact,
+)
 from foldshell.study.claims.statement import Claim
 
 
@@ -94,6 +101,13 @@ def judge_deflected_edges(outcomes: Sequence[Outcome], comparer: Comparer) -> Cl
     return Claim("C12", [comparer.compare_within(part, one, *names) for one in designs])
 
 
+SIZED = "less material when folded, each sized by itself"
+LARGE = (
+    "The theory is that of small displacements: one beyond a tenth of the span only says that the "
+    "sheet does not carry its loads as a plate."
+)
+
+
 def judge_folds(
     outcomes: Sequence[Outcome], flats: Mapping[str, Mapping[str, Any]], comparer: Comparer
 ) -> Claim:
@@ -112,7 +126,12 @@ def judge_folds(
         stands = flat["measures"]["displacement"] is not None
         findings.append(found if stands else _fallen(found, flat))
         numbers[one.name] = {name: flat[name] for name in NUMBERS}
-    return Claim("C13", findings, numbers={"flat": numbers})
+    findings += [
+        comparer.compare(SIZED, group["flat"], group["miura"], "volume")
+        for group in group_by_others(outcomes, "pattern")
+        if {"flat", "miura"} <= set(group)
+    ]
+    return Claim("C13", findings, open=(SIZED,), notes=(LARGE,), numbers={"flat": numbers})
 
 
 NUMBERS = ("flat", "thickness_m", "volume_m3", "area_m2", "sides_m", "displacement_first_order_m",
