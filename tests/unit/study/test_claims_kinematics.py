@@ -23,7 +23,8 @@ def _table(ratio=-1.0, shapes=("twist", "saddle"), dome=0.5, stresses=(20, 0), f
             "rigid_panels": {"self_stresses": stresses[0]},
             "bending_panels": {"self_stresses": stresses[1]},
         }],
-        "strengths": [{"surface": "hypar", "panels": kind, "folded": one}
+        "strengths": [{"surface": "hypar", "engine": "own", "panels": kind, "reached": one,
+                       "folded": False}
                       for kind, values in folded.items() for one in values],
     }  # fmt: skip
 

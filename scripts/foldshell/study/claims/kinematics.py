@@ -81,40 +81,52 @@ def _find_soft(name: str, sheet: Mapping[str, Any]) -> list[Finding]:
     return found
 
 
+CONSTRAINED = "quadrilaterals are over-constrained, triangles are not"
+MEASURES = {
+    "reached": "reach the target",
+    "folded": "reach it without shear of panels",
+}
+"""What counts as folded: lying on the target without turned folds; and unsheared beside that."""
+
+
 def judge_strengths(kinematics: Mapping[str, Any]) -> Claim:
     """C3: self-stresses of rigid quadrilaterals; which strengths fold them, and triangles."""
     findings = []
-    part = "quadrilaterals are over-constrained, triangles are not"
     for sheet in kinematics["sheets"]:
         counts = [sheet[name]["self_stresses"] for name in ("rigid_panels", "bending_panels")]
         name = f"Miura sheet {sheet['zigzag']}x{sheet['strip']}"
-        true = counts[0] > 0 and counts[1] == 0
+        verdict = HOLDS if counts[0] > 0 and counts[1] == 0 else FAILS
         quantity = "self-stresses: quadrilaterals, triangles"
-        verdict = HOLDS if true else FAILS
-        findings.append(Finding(part, (name,), quantity, "-", tuple(counts), 0.0, verdict))
-    for surface in dict.fromkeys(row["surface"] for row in kinematics["strengths"]):
-        findings += _find_strengths(kinematics["strengths"], surface)
-    findings.sort(key=lambda finding: ORDER.index(finding.part))
-    return Claim("C3", findings)
+        values = tuple(counts)
+        findings.append(Finding(CONSTRAINED, (name,), quantity, "-", values, 0.0, verdict))
+    parts = {}
+    for measure, words in MEASURES.items():
+        found = _find_strengths(kinematics["strengths"], measure, words)
+        parts[measure] = tuple(dict.fromkeys(finding.part for finding in found))
+        findings += found
+    return Claim("C3", findings, open=parts["folded"])
 
 
-ORDER = (
-    "quadrilaterals are over-constrained, triangles are not",
-    "quadrilaterals fold at some strengths only",
-    "triangles fold at all strengths",
-)
-
-
-def _find_strengths(rows: Sequence[Mapping[str, Any]], surface: str) -> list[Finding]:
-    """Return the shares of the strengths at which a surface's mesh folds."""
+def _find_strengths(rows: Sequence[Mapping[str, Any]], measure: str, words: str) -> list[Finding]:
+    """Return the share of the strengths that fold each mesh on each surface by each engine."""
     found = []
-    for kind, part in zip(("quadrilaterals", "triangles"), ORDER[1:], strict=True):
-        folded = [r["folded"] for r in rows if r["surface"] == surface and r["panels"] == kind]
-        if folded:
+    cases = dict.fromkeys(
+        (row["surface"], row.get("engine", "levenberg_marquardt").replace("_", " ")) for row in rows
+    )
+    for kind, strengths in (("quadrilaterals", "some strengths only"), ("triangles", "all")):
+        for surface, engine in cases:
+            folded = [
+                row[measure]
+                for row in rows
+                if (row["surface"], row.get("engine", "levenberg_marquardt").replace("_", " "))
+                == (surface, engine)
+                and row["panels"] == kind
+            ]
             share = sum(folded) / len(folded)
             true = share == 1 if kind == "triangles" else 0 < share < 1
-            quantity = f"share of {len(folded)} settings that fold"
-            found.append(state_fact(part, f"{kind} on the {surface}", quantity, share, 1.0, true))
+            part = f"{kind} {words} at {strengths}"
+            name = f"{kind}, {surface}, {engine}, {len(folded)} settings"
+            found.append(state_fact(part, name, "share of settings", share, 1.0, true))
     return found
 
 
