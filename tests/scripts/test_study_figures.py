@@ -14,7 +14,8 @@ SETTINGS = {
     "material": {"youngs_modulus": 31e6, "poissons_ratio": 0.2},
     "sizing": {"utilization_max": 1.0, "displacement_limit_span_over": 240},
 }
-FILES = ("shell/mesh.npz", "folded/folded.npz", "sizing/final.npz", "sizing/final.json")
+FILES = ("shell/mesh.npz", "folded/folded.npz", "sizing/final.npz", "sizing/final.json",
+         "sizing/classes.npz")  # fmt: skip
 
 
 def write_results(folder, **designs):

@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
+from foldshell.exchange.vtu import write_vtu
 from foldshell.figures.drafts import Elasticity, Subject
 from foldshell.figures.fields import (
     cell_thickness,
@@ -27,7 +28,6 @@ from foldshell.figures.flow_pictures import utilization_isolines
 from foldshell.figures.force_lines import split_lines
 from foldshell.figures.state import DesignState
 from foldshell.shell.mesh import edge_polyline_nodes
-from foldshell.study.files import atomic_path
 
 
 def cell_fields(state: DesignState, elasticity: Elasticity) -> dict[str, np.ndarray]:
@@ -83,17 +83,8 @@ def point_fields(state: DesignState) -> dict[str, np.ndarray]:
 
 def write_design_vtu(path: str | Path, state: DesignState, elasticity: Elasticity) -> None:
     """Write design.vtu: result cells as triangles, nodes in m."""
-    import meshio
-
     fields = cell_fields(state, elasticity)
-    grid = meshio.Mesh(
-        state.cells.nodes,
-        [("triangle", state.triangles)],
-        point_data=point_fields(state),
-        cell_data={name: [values] for name, values in fields.items()},
-    )
-    with atomic_path(path) as temporary:
-        grid.write(temporary, file_format="vtu")
+    write_vtu(path, state.cells.nodes, state.triangles, point_fields(state), fields)
 
 
 def write_lines_vtu(path: str | Path, subject: Subject) -> None:
@@ -102,16 +93,12 @@ def write_lines_vtu(path: str | Path, subject: Subject) -> None:
     Cell fields: kind (1 and 2: trajectories of n1 and n2; 3: isoline), force [kN/m] (tension
     positive, nan on isolines), utilization [-] (nan on force lines).
     """
-    import meshio
-
     parts = [*_force_parts(subject), *_isoline_parts(subject)]
     segments = np.concatenate([np.empty((0, 2, 3)), *(part[0] for part in parts)])
     kind, force, level = np.concatenate([np.empty((3, 0)), *(part[1] for part in parts)], axis=1)
-    data = {"kind": [kind.astype(np.int32)], "force": [force], "utilization": [level]}
-    cells = [("line", np.arange(2 * len(segments)).reshape(-1, 2))]
-    grid = meshio.Mesh(segments.reshape(-1, 3), cells, cell_data=data)
-    with atomic_path(path) as temporary:
-        grid.write(temporary, file_format="vtu")
+    data = {"kind": kind.astype(np.int32), "force": force, "utilization": level}
+    cells = np.arange(2 * len(segments)).reshape(-1, 2)
+    write_vtu(path, segments.reshape(-1, 3), cells, {}, data)
 
 
 def _force_parts(subject: Subject) -> list[tuple[np.ndarray, np.ndarray]]:
