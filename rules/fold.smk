@@ -59,6 +59,7 @@ rule kinematics:
         library=library("kinematics"),
     output:
         table=f"{RESULTS}/kinematics.json",
+        figure=f"{RESULTS}/kinematics.png",
     params:
         sector_angle_deg=SECTOR_ANGLE_DEG,
     conda:

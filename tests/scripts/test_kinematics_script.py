@@ -9,11 +9,13 @@ def test_tables_are_written(tmp_path):
     path = tmp_path / "kinematics.json"
     kinematics.main(
         path, densities=((5, 6),), attractions=(100.0,), panel_strengths=(0.01,),
+        explicit_attractions=(100.0,), explicit_panel_strengths=(1.0,),
         figure_path=tmp_path / "k.png",
     )  # fmt: skip
     assert (tmp_path / "k.png").read_bytes()[:4] == b"\x89PNG"
     data = json.loads(path.read_text())
-    assert [row["in_plane"] < 0 for row in data["ratios"]] == [True] * 4
+    assert [row["in_plane"] < 0 for row in data["ratios"]] == [True] * 8
     assert data["sheets"][0]["rigid_panels"]["freedoms"] == 1
     assert {row["panels"] for row in data["strengths"]} == {"quadrilaterals", "triangles"}
-    assert len(data["strengths"]) == 4
+    engines = [row["engine"] for row in data["strengths"]]
+    assert engines == ["levenberg_marquardt"] * 4 + ["averaged_projections"] * 4

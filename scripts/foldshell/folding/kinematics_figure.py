@@ -59,20 +59,28 @@ def _draw_isometries(axis, sheets: list[dict[str, Any]]) -> None:
 
 
 def _draw_strengths(axis, rows: list[dict[str, Any]], kind: str) -> None:
+    """One mark a trial: shape by surface, colour by outcome, hollow for the explicit engine."""
     rows = [row for row in rows if row["panels"] == kind]
     for surface, mark in (("paraboloid", "o"), ("hypar", "^")):
-        chosen = [row for row in rows if row["surface"] == surface]
-        for folded, colour in ((True, "tab:green"), (False, "tab:red")):
-            shown = [row for row in chosen if row["folded"] == folded]
-            axis.scatter(
-                [row["rms_over_span"] for row in shown],
-                [max(row["shear_max"], 1e-4) for row in shown],
-                marker=mark, color=colour, alpha=0.7,
-                label=f"{surface}, {'reached, panels kept' if folded else 'missed or sheared'}",
-            )  # fmt: skip
+        for folded, colour in ((True, "tab:blue"), (False, "tab:orange")):
+            for explicit in (False, True):
+                shown = [
+                    row for row in rows
+                    if row["surface"] == surface and row["folded"] == folded
+                    and (row["engine"] == "averaged_projections") == explicit
+                ]  # fmt: skip
+                outcome = "reached, panels kept" if folded else "missed or sheared"
+                axis.scatter(
+                    [row["rms_over_span"] for row in shown],
+                    [max(row["shear_max"], 1e-4) for row in shown],
+                    marker=mark, edgecolors=colour, alpha=0.7, s=40,
+                    facecolors="none" if explicit else colour,
+                    label=None if explicit else f"{surface}, {outcome}",
+                )  # fmt: skip
+    axis.scatter([], [], edgecolors="k", facecolors="none", label="hollow: averaged projections")
     axis.set(
         xscale="log", yscale="log", title=f"Force strengths on {kind}",
         xlabel="rms distance to target / span [-]", ylabel="largest strain of a diagonal [-]",
         xlim=(1e-7, 0.2), ylim=(1e-4, 2),
     )  # fmt: skip
-    axis.legend(fontsize="small")
+    axis.legend(fontsize="small", loc="lower left")

@@ -17,7 +17,7 @@ from foldshell.folding.targets import make_target
 from foldshell.pattern.design import design_sheet
 from foldshell.pattern.miura import Miura, folded_vertices, rest_fold_angle
 
-FOLD_ANGLES_DEG = (20.0, 35.0, 50.0)
+FOLD_ANGLES_DEG = (10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0)
 PANEL_STIFFNESSES = (1.0, 10.0)  # over that of creases
 SURFACES = ("paraboloid", "hypar")
 
@@ -56,13 +56,14 @@ def study_strengths(
     sector_angle: float,
     attractions: Sequence[float],
     panels: Sequence[float],
+    settings: FoldSettings,
 ) -> list[dict[str, Any]]:
-    """Sweep the strengths on a dome and a saddle, quadrilaterals and triangles."""
+    """Sweep the strengths on a dome and a saddle, quadrilaterals and triangles, by one engine."""
     rows = []
     for surface in SURFACES:
         target = make_target(surface, span, height)
         angle = math.degrees(sector_angle)
         sheet = design_sheet("miura", target.section_lengths(), 15, 16, angle, 0)
-        trials = sweep_strengths(sheet, target, FoldSettings(), attractions, panels)
+        trials = sweep_strengths(sheet, target, settings, attractions, panels)
         rows += [{"surface": surface, **asdict(trial)} for trial in trials]
     return rows

@@ -1,11 +1,15 @@
 """Paper mode: soft springs, as a physics engine would have it."""
 
-from foldshell.folding.levenberg import minimise_terms
+from collections.abc import Sequence
+
+import numpy as np
+
+from foldshell.folding.levenberg import Minimum, minimise_terms
 from foldshell.folding.problem import build_terms, place_sheet
 from foldshell.folding.projections import average_projections
 from foldshell.folding.settings import FoldSettings
 from foldshell.folding.shape import Shape
-from foldshell.folding.terms import Target
+from foldshell.folding.terms import Target, Term
 from foldshell.pattern.sheet import Sheet
 
 # Averaged projections creep: many more iterations, judged over a window of them.
@@ -15,16 +19,24 @@ EXPLICIT_ITERATIONS, EXPLICIT_TOLERANCE = 50, 10.0
 def fold_softly(sheet: Sheet, target: Target, settings: FoldSettings) -> Shape:
     """Paper mode: minimise the weighted squares of stretch, hinges, attraction, plan edge."""
     terms = build_terms(sheet, target, settings.attract, settings.weights)
-    explicit = settings.engine == "averaged_projections"
-    minimise = average_projections if explicit else minimise_terms
-    minimum = minimise(
-        terms,
-        place_sheet(sheet, target, settings.attract),
-        max_iterations=settings.max_iterations * (EXPLICIT_ITERATIONS if explicit else 1),
-        cost_tolerance=settings.tolerance * (EXPLICIT_TOLERANCE if explicit else 1.0),
-        step_tolerance=1e-9 * target.span,
-    )
+    start = place_sheet(sheet, target, settings.attract)
+    minimum = minimise_softly(terms, start, settings, target.span)
     return Shape(
         minimum.vertices, sheet.flat, minimum.iterations, minimum.converged, minimum.reason,
         {"cost": minimum.cost},
     )  # fmt: skip
+
+
+def minimise_softly(
+    terms: Sequence[Term], start: np.ndarray, settings: FoldSettings, span: float
+) -> Minimum:
+    """argmin over vertices (V, 3) of 1/2 sum r2 by the engine of the settings, from `start`."""
+    explicit = settings.engine == "averaged_projections"
+    minimise = average_projections if explicit else minimise_terms
+    return minimise(
+        terms,
+        start,
+        max_iterations=settings.max_iterations * (EXPLICIT_ITERATIONS if explicit else 1),
+        cost_tolerance=settings.tolerance * (EXPLICIT_TOLERANCE if explicit else 1.0),
+        step_tolerance=1e-9 * span,
+    )

@@ -11,7 +11,6 @@ import numpy as np
 
 from foldshell.folding.constraints import require_planar
 from foldshell.folding.intersections import find_intersections
-from foldshell.folding.levenberg import minimise_terms
 from foldshell.folding.problem import (
     Weights,
     build_terms,
@@ -21,6 +20,7 @@ from foldshell.folding.problem import (
 )
 from foldshell.folding.quality import count_flipped, measure_planarity, root_mean_square
 from foldshell.folding.settings import FoldSettings
+from foldshell.folding.soft import minimise_softly
 from foldshell.folding.terms import Stretch, Target, Term
 from foldshell.pattern.angles import measure_folds
 from foldshell.pattern.sheet import Sheet
@@ -42,6 +42,7 @@ class Trial:
     them one calls folded, and both are kept.
     """
 
+    engine: str
     panels: str
     attraction: float
     panel: float
@@ -78,15 +79,10 @@ def try_strengths(
     attraction: float,
     panel: float,
 ) -> Trial:
-    """Fold by the given strengths, stretch and hinges as in paper mode."""
+    """Fold by the given strengths, stretch, hinges and engine as in paper mode."""
     terms = _build_terms(sheet, target, settings, panels, attraction, panel)
-    minimum = minimise_terms(
-        terms,
-        place_sheet(sheet, target, settings.attract),
-        max_iterations=settings.max_iterations,
-        cost_tolerance=settings.tolerance,
-        step_tolerance=1e-9 * target.span,
-    )
+    start = place_sheet(sheet, target, settings.attract)
+    minimum = minimise_softly(terms, start, settings, target.span)
     grid, vertices = sheet.grid, minimum.vertices
     strain = np.abs(edge_lengths(vertices, grid.edges) / edge_lengths(sheet.flat, grid.edges) - 1)
     shear = float(strain[grid.neutral].max())
@@ -97,7 +93,7 @@ def try_strengths(
     rms = root_mean_square(distances) / target.span
     reached = rms <= REACHED and not flipped and not cuts
     return Trial(
-        panels, float(attraction), float(panel), rms,
+        settings.engine, panels, float(attraction), float(panel), rms,
         float(strain[: grid.neutral.start].max()), shear,
         float(measure_planarity(vertices, grid.quads).max()), flipped, cuts,
         minimum.iterations, reached, reached and shear <= SHEARED,
