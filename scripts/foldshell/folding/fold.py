@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from foldshell.folding.isometric import fold_isometrically
-from foldshell.folding.problem import attracted_vertices, place_sheet
-from foldshell.folding.quality import Quality, measure_coverage, measure_quality
+from foldshell.folding.problem import attracted_vertices
+from foldshell.folding.quality import Quality, measure_quality, measure_start_coverage
 from foldshell.folding.settings import MODES, FoldSettings
 from foldshell.folding.shape import Shape
 from foldshell.folding.soft import fold_softly
@@ -56,21 +56,11 @@ def fold_sheet(sheet: Sheet, target: Target, mode: str, settings: FoldSettings) 
     quality = measure_quality(
         shape.vertices, sheet.grid, shape.flat, distances[attracted], target.span, folded
     )
-    least = settings.limits.plan_coverage * measure_start_coverage(sheet, target, settings)
+    start_coverage = measure_start_coverage(sheet, target, settings.attract) if folded else 0.0
+    least = settings.limits.plan_coverage * start_coverage
     state, reason = judge_shape(shape, quality, settings.limits.rms_over_span, least, mode)
     seconds = time.perf_counter() - start
     return FoldResult(shape, attracted, distances, quality, state, reason, seconds)
-
-
-def measure_start_coverage(sheet: Sheet, target: Target, settings: FoldSettings) -> float:
-    """Share of the plan under the sheet as it is laid on the target: what it could cover.
-
-    A coarse zig-zag border leaves much of the plan free without anything being wrong.
-    """
-    if sheet.kind in LAYOUTS:
-        return 0.0
-    start = place_sheet(sheet, target, settings.attract)
-    return measure_coverage(start, sheet.grid.facets, target.span)
 
 
 def judge_shape(
@@ -78,8 +68,8 @@ def judge_shape(
 ) -> tuple[str, str]:
     """Name the state of a folded sheet and the reason for it.
 
-    An isometric sheet far from its target is not_reached whatever else is wrong with it: that
-    no isometry leads there is the finding, and folds turned over only its consequence.
+    An isometric sheet that misses its target or the plan is not_reached whatever else is wrong
+    with it: that no isometry leads there is the finding, and folds turned over its consequence.
     """
     faults = []
     if quality.flipped_folds:
@@ -89,10 +79,10 @@ def judge_shape(
     if quality.plan_coverage < coverage_limit:
         faults.append(f"plan coverage {quality.plan_coverage:.3f} < {coverage_limit:.3f}")
     missed = quality.rms_over_span > rms_limit
-    distance = f"rms distance {quality.rms_over_span:.2e} span > {rms_limit:g}"
-    if faults and not (missed and mode == "isometric"):
+    if faults and mode != "isometric":
         return "crumpled", "; ".join(faults)
-    if missed:
+    if missed or faults:
+        distance = f"rms distance {quality.rms_over_span:.2e} span, allowed {rms_limit:g}"
         return "not_reached", "; ".join([distance, shape.reason, *faults])
     return ("ok" if shape.converged else "not_reached"), shape.reason
 

@@ -5,9 +5,11 @@ from dataclasses import asdict, dataclass
 import numpy as np
 
 from foldshell.folding.intersections import find_intersections
-from foldshell.folding.problem import edge_lengths
+from foldshell.folding.problem import edge_lengths, place_sheet
+from foldshell.folding.terms import Target
 from foldshell.pattern.angles import developability_residual, measure_folds
 from foldshell.pattern.grid import Grid
+from foldshell.pattern.sheet import Sheet
 
 
 @dataclass(frozen=True)
@@ -140,6 +142,15 @@ def measure_coverage(
     covered = np.zeros((samples, samples), dtype=bool)
     covered[points[inside, 0], points[inside, 1]] = True
     return float(covered.mean())
+
+
+def measure_start_coverage(sheet: Sheet, target: Target, attract: str) -> float:
+    """Share of the plan under the sheet as it is laid on the target: what it could cover.
+
+    A coarse zig-zag border leaves much of the plan free without anything being wrong.
+    """
+    start = place_sheet(sheet, target, attract)
+    return measure_coverage(start, sheet.grid.facets, target.span)
 
 
 def _turn(start: np.ndarray, end: np.ndarray, point: np.ndarray) -> np.ndarray:

@@ -87,15 +87,17 @@ def folded_vertices(pattern: Miura, fold_angle: float) -> np.ndarray:
     return place_cells(fold_cell(pattern, fold_angle), pattern.zigzags, pattern.strips)
 
 
-def rest_fold_angle(sector_angle: float) -> float:
-    """cos t tan g = 1: the state whose in-plane Poisson's ratio is -1 [rad].
+def rest_fold_angle(sector_angle: float, poisson: float = -1.0) -> float:
+    """cos2 t tan2 g = -poisson: the state of a given in-plane Poisson's ratio [rad].
 
-    There the folded sheet changes size alike in both directions, and both curvatures of its
+    At -1 the folded sheet changes size alike in both directions, and both curvatures of its
     saddle have the same size. Exists for sector angles above 45 degrees.
     """
-    if not math.pi / 4 < sector_angle < math.pi / 2:
-        raise ValueError(f"sector angle {sector_angle}: the rest state needs (pi/4, pi/2)")
-    return math.acos(1.0 / math.tan(sector_angle))
+    steepness = math.sqrt(-poisson)
+    if not math.atan(steepness) < sector_angle < math.pi / 2:
+        least = math.degrees(math.atan(steepness))
+        raise ValueError(f"sector angle {sector_angle}: must be {least:g} to 90 deg, both excluded")
+    return math.acos(steepness / math.tan(sector_angle))
 
 
 def poissons_ratio(sector_angle: float, fold_angle: float) -> float:
@@ -109,12 +111,13 @@ def size_miura(
     sector_angle: float,
     zigzags: int,
     strips: int,
+    poisson: float = -1.0,
 ) -> Miura:
     """Choose sides so that the rest state measures the two given lengths [m].
 
-    (strips - 1) S = first, (zigzags - 1) L + V = second.
+    (strips - 1) S = first, (zigzags - 1) L + V = second; `poisson` is the rest state's ratio.
     """
-    rest = rest_fold_angle(sector_angle)
+    rest = rest_fold_angle(sector_angle, poisson)
     unit = fold_cell(Miura(1.0, 1.0, sector_angle, zigzags, strips), rest)
     side_b = length_across_strips / ((strips - 1) * unit.across_strips)
     rows = length_across_zigzags - side_b * unit.offset

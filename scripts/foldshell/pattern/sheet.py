@@ -40,8 +40,12 @@ class Sheet:
         return self.rest if self.unrolled is None else self.unrolled
 
 
-def make_miura_sheet(pattern: Miura, frames: int = 9) -> Sheet:
-    """Standard Miura sheet with `frames` states of its path, flat to nearly folded flat."""
+def make_miura_sheet(pattern: Miura, frames: int = 9, poisson: float = -1.0) -> Sheet:
+    """Standard Miura sheet with `frames` states of its path, flat to nearly folded flat.
+
+    Its rest state is that whose in-plane Poisson's ratio is `poisson`.
+    """
+    rest = rest_fold_angle(pattern.sector_angle, poisson)
     angles = np.linspace(0, math.pi / 2, frames + 1)[:-1] if frames else []
     path = tuple(
         Frame(f"folded {math.degrees(angle):.1f} deg", folded_vertices(pattern, angle))
@@ -51,12 +55,12 @@ def make_miura_sheet(pattern: Miura, frames: int = 9) -> Sheet:
         kind="miura",
         grid=pattern.grid,
         flat=flat_vertices(pattern),
-        rest=folded_vertices(pattern, rest_fold_angle(pattern.sector_angle)),
+        rest=folded_vertices(pattern, rest),
         path=path,
         settings={
             "side_a_m": pattern.side_a,
             "side_b_m": pattern.side_b,
             "sector_angle_deg": math.degrees(pattern.sector_angle),
-            "rest_fold_angle_deg": math.degrees(rest_fold_angle(pattern.sector_angle)),
+            "rest_fold_angle_deg": math.degrees(rest),
         },
     )
