@@ -1,6 +1,7 @@
 """The page of claims: what stands in its tables."""
 
 from claims_case import make_outcome
+from foldshell.study.claims.limits import judge_folds
 from foldshell.study.claims.outcome import Comparer
 from foldshell.study.claims.statement import Claim, describe_claim
 from foldshell.study.claims.structure import judge_supports
@@ -33,3 +34,16 @@ def test_a_section_says_what_cannot_be_told():
     entry = describe_claim(Claim("C6", [])) | {"sensitivity": {"words": "Nothing."}}
     section = write_section(entry)
     assert section.startswith("## C6: cannot be told") and "Sensitivity: Nothing." in section
+
+
+def test_flat_sheets_have_a_row_each():
+    design = make_outcome()
+    flat = {
+        "flat": "flat-sheet", "state": "unstable", "thickness_m": 0.05, "volume_m3": 80.0,
+        "area_m2": 1600.0, "sides_m": [40.0, 41.5], "displacement_first_order_m": 2.0,
+        "errors": {}, "measures": {"displacement": None, "utilization_panel_mean_max": None},
+    }  # fmt: skip
+    claim = judge_folds([design], {design.name: flat}, COMPARER)
+    section = write_section(describe_claim(claim))
+    assert "| flat-sheet | 40 x 41.5 | 50 | 80 | unstable | 2 | - |" in section
+    assert section.startswith("## C13: holds")

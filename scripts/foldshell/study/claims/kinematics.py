@@ -113,7 +113,10 @@ def _find_strengths(rows: Sequence[Mapping[str, Any]], measure: str, words: str)
     cases = dict.fromkeys(
         (row["surface"], row.get("engine", "levenberg_marquardt").replace("_", " ")) for row in rows
     )
-    for kind, strengths in (("quadrilaterals", "some strengths only"), ("triangles", "all")):
+    for kind, strengths in (
+        ("quadrilaterals", "some strengths only"),
+        ("triangles", "all strengths"),
+    ):
         for surface, engine in cases:
             folded = [
                 row[measure]

@@ -134,8 +134,16 @@ def judge_folds(
     return Claim("C13", findings, open=(SIZED,), notes=(LARGE,), numbers={"flat": numbers})
 
 
-NUMBERS = ("flat", "thickness_m", "volume_m3", "area_m2", "sides_m", "displacement_first_order_m",
-           "measures")  # fmt: skip
+NUMBERS = (
+    "flat",
+    "state",
+    "thickness_m",
+    "volume_m3",
+    "area_m2",
+    "sides_m",
+    "displacement_first_order_m",
+    "measures",
+)
 
 
 def _fallen(found: Finding, flat: Mapping[str, Any]) -> Finding:

@@ -81,11 +81,22 @@ def _describe(claim: Claim, outcomes, equal, variants, comparer: Comparer) -> di
     level = judge_equal_thickness(claim.key, equal, comparer)
     words = describe_dependence(claim, runs, level, variants)
     if claim.key in SENSITIVE:
-        own = [one for one in outcomes if one.name in entry["designs"]]
-        thin = sum(one.values["state"] == "at_minimum_thickness" for one in own)
-        words += f" {thin} of {len(own)} designs stand at the least thickness in every panel, "
-        words += "which alone then sets volume and utilization."
+        words += _describe_states([one for one in outcomes if one.name in entry["designs"]])
     return entry | {"sensitivity": {"words": words, "runs": runs, "equal_thickness": level}}
+
+
+def _describe_states(outcomes: Sequence[Outcome]) -> str:
+    """Say how many designs hang on the least thickness alone, and which did not settle."""
+    names = {state: [o.name for o in outcomes if o.values["state"] == state]
+             for state in ("at_minimum_thickness", "not_converged", "unstable")}  # fmt: skip
+    words = (
+        f" {len(names['at_minimum_thickness'])} of {len(outcomes)} designs stand at the least "
+        "thickness in every panel, which alone then sets volume and utilization."
+    )
+    unsettled = names["not_converged"] + names["unstable"]
+    if unsettled:
+        words += f" Not settled when the loop ended: {', '.join(unsettled)}."
+    return words
 
 
 def choose_geometries(outcomes: Sequence[Outcome]) -> list[Outcome]:
