@@ -62,7 +62,7 @@ def fit_camera(
         shift = (low + high) / 2 * math.tan(angle / 2) * distance
         focus = focus + shift @ camera.axes()[:2]
         distance *= fill
-        if abs(fill - 1) < 1e-6 and np.abs(shift).max() < 1e-6 * radius:
+        if abs(fill - 1) < 1e-4 and np.abs(shift).max() < 1e-4 * radius:
             break
     return Camera(focus + distance * away, focus, angle)
 

@@ -80,7 +80,7 @@ def compose(
 def save_png(path: str | Path, picture: Image.Image) -> None:
     """Write a PNG whose bytes depend on the picture alone."""
     with atomic_path(path) as temporary:
-        picture.save(temporary, format="PNG", compress_level=4)
+        picture.save(temporary, format="PNG", compress_level=2)
 
 
 @lru_cache
