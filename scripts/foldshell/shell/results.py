@@ -67,6 +67,17 @@ def panel_area(model: ShellModel) -> np.ndarray:
     return np.bincount(model.mesh.panel, model.operators.geometry.area)
 
 
+def panels_beside_strips(model: ShellModel) -> np.ndarray:
+    """Return the sized panel (B,) from whose border each strip of an edge beam hangs."""
+    mesh, bare = model.mesh, model.bare
+    owner = np.full(mesh.edge_count, -1)
+    owner[mesh.element_edges[~bare]] = mesh.panel[~bare][:, None]
+    found = owner[mesh.element_edges[bare]].max(axis=1)
+    beside = np.full(len(model.fixed_thickness), -1)
+    np.maximum.at(beside, mesh.panel[bare] - model.sized_panels, found)
+    return beside
+
+
 def panel_utilization(model: ShellModel, cell: np.ndarray, measure: str) -> np.ndarray:
     """Return (P,): `panel_mean`, the area mean over the cells of a panel, or `element_max`."""
     panel = model.mesh.panel

@@ -17,6 +17,7 @@ from foldshell.shell.results import (
     largest_downward,
     panel_area,
     panel_utilization,
+    panels_beside_strips,
     reaction_imbalance,
     support_reactions,
     translations,
@@ -90,6 +91,7 @@ def run_iteration(
         if len(model.fixed_thickness):
             report |= _describe_edge_beam(model, utilization, strips)
             arrays |= {f"edge_beam_utilization_{name}": strips[name] for name in strips}
+            arrays["edge_beam_panel"] = panels_beside_strips(model)
     going_on = verdict.verdict == "continue"
     if factor_min is not None and result.state == "ok" and going_on:
         factors = combination_matrix(plan.combinations)

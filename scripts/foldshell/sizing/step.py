@@ -86,16 +86,29 @@ def take_step(
     `analysis` and `arrays` are the contents of analysis.json and analysis.npz, `memory` that of
     the step before (empty at the start), `sizing` the plain settings of the stage `resize`.
     """
-    used = arrays.get(f"utilization_{sizing['measure']}")
     following = propose_thickness(
         analysis,
         arrays["thickness"],
-        used,
+        choose_utilization(arrays, sizing["measure"]),
         memory,
         make_step_rule(sizing),
         read_constraints(arrays),
     )
     return replace(following, thickness=round_thickness(following.thickness))
+
+
+def choose_utilization(arrays: Mapping[str, np.ndarray], measure: str) -> np.ndarray | None:
+    """Return the utilization (P,) by which a rule sizes panels, None where there is none.
+
+    No rule sizes the strips of an edge beam: the panel that a strip hangs from takes the larger of
+    both utilizations, so that it relieves an overstressed strip.
+    """
+    used = arrays.get(f"utilization_{measure}")
+    if used is None or "edge_beam_panel" not in arrays:
+        return used
+    larger = used.copy()
+    np.maximum.at(larger, arrays["edge_beam_panel"], arrays[f"edge_beam_utilization_{measure}"])
+    return larger
 
 
 def propose_thickness(

@@ -16,7 +16,12 @@ from foldshell.shell.loads import Loads
 from foldshell.shell.material import Material
 from foldshell.shell.mesh import build_mesh
 from foldshell.shell.mesh_files import mesh_folded_sheet, mesh_from_arrays
-from foldshell.shell.results import panel_area, support_reactions, translations
+from foldshell.shell.results import (
+    panel_area,
+    panels_beside_strips,
+    support_reactions,
+    translations,
+)
 from sizing_case import PANELS, STRIP, ZIGZAG, corrugated_sheet
 
 MATERIAL = Material("concrete", 31e6, 0.2, 25.0, 16.7e3, 1.67e3)
@@ -169,6 +174,23 @@ def test_strips_carry_their_own_weight_only_and_reactions_balance():
     weight = 25.0 * length * BEAM.depth * BEAM.thickness
     assert total[None][2, 0] - total[BEAM][2, 0] == pytest.approx(weight)
     assert total[BEAM][:, 1] == pytest.approx(total[None][:, 1])
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_each_strip_knows_the_panel_it_hangs_from(seed):
+    """They share both vertices of the border edge."""
+    sheet = renumbered(seed)
+    arrays = mesh_folded_sheet(sheet, "strip", 8, edge_beam=BEAM)
+    model = build_model(
+        mesh_from_arrays(arrays), arrays["supported_nodes"], 0.2,
+        fixed_thickness=arrays["fixed_thickness"],
+    )  # fmt: skip
+    found = panels_beside_strips(model)
+    for strip, panel in enumerate(found):
+        hung = arrays["facets"][arrays["facet_panel"] == PANELS + strip]
+        beside = arrays["facets"][arrays["facet_panel"] == panel]
+        assert len(set(hung.ravel()) & set(beside.ravel())) == 2
+    assert len(np.unique(found)) == 2 * (STRIP - 1)
 
 
 @pytest.mark.parametrize("seed", [None, 4])

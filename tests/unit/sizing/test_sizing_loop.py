@@ -15,7 +15,7 @@ from foldshell.sizing.rules import (
     start_state,
     thicken_all,
 )
-from foldshell.sizing.step import StepRule, propose_thickness
+from foldshell.sizing.step import StepRule, choose_utilization, propose_thickness
 
 LIMITS = SizingLimits(0.04, 1.0, 0.6, 1.0)
 STEP = StepRule("dead_band", 0.1, 1.5, LIMITS)
@@ -191,3 +191,33 @@ def test_gathering_removes_what_a_kill_left_half_written(tmp_path):
     half.write_bytes(b"ha")
     assert remove_superseded(tmp_path, 1) == []
     assert whole.exists() and not half.exists()
+
+
+def judged(**changes) -> IterationState:
+    calm = np.full(3, 0.8)
+    return replace(
+        IterationState(5, "ok", "", 0.1 * calm, calm, 0.01, 28.0, 10.0, 10.0, 0.2 * calm, 0),
+        **changes,
+    )
+
+
+def test_an_overstressed_edge_beam_keeps_the_loop_open():
+    """Its criterion stands beside those of Table 3, and only where there is an edge beam."""
+    assert judge_iteration(judged(), STOP).verdict == "converged"
+    fine = judge_iteration(judged(edge_beam=1.0), STOP)
+    assert fine.verdict == "converged" and fine.criteria["edge_beam_utilization"]["met"]
+    above = judge_iteration(judged(edge_beam=1.2), STOP)
+    assert above.verdict == "continue" and "edge_beam_utilization" in above.reason
+
+
+def test_a_panel_is_sized_by_the_strip_that_hangs_from_it_if_that_is_used_more():
+    arrays = {
+        "utilization_panel_mean": np.array([0.5, 0.7, 0.9, 0.4]),
+        "edge_beam_utilization_panel_mean": np.array([1.3, 0.2]),
+        "edge_beam_panel": np.array([0, 2]),
+    }
+    assert choose_utilization(arrays, "panel_mean").tolist() == [1.3, 0.7, 0.9, 0.4]
+    assert arrays["utilization_panel_mean"][0] == 0.5
+    plain = {"utilization_panel_mean": np.array([0.5])}
+    assert choose_utilization(plain, "panel_mean").tolist() == [0.5]
+    assert choose_utilization({}, "panel_mean") is None
