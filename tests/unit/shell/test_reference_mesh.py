@@ -1,4 +1,4 @@
-"""Which mesh gives the limit: graded for folded sheets, even for smooth and flat ones."""
+"""Which mesh gives the limit: of high order for folded sheets, finer for smooth and flat ones."""
 
 import numpy as np
 import pytest
@@ -27,7 +27,7 @@ def test_mean_fold_is_that_of_the_ridge(degrees):
     assert np.degrees(measure_mean_fold(**roof)) == pytest.approx(degrees)
 
 
-def test_flat_and_smooth_sheets_get_an_even_mesh():
+def test_flat_and_smooth_sheets_get_a_finer_mesh():
     assert measure_mean_fold(**_roof(0.0)) == 0
     assert choose_reference(_roof(0.0), 4) == SMOOTH_REFERENCE
     assert choose_reference(_roof(np.radians(8)), 4) == SMOOTH_REFERENCE
