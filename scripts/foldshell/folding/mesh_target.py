@@ -4,16 +4,22 @@ Closest points by VTK's static cell locator; normals are interpolated from the v
 the distance is smooth where facets meet.
 """
 
+import math
 import warnings
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from foldshell.study.errors import InputError
 
+if TYPE_CHECKING:
+    import pyvista
+
 SUFFIXES = (".stl", ".obj", ".vtk", ".vtu", ".ply")
+STEEPEST = math.radians(85)  # slope of a triangle; walls have no one height a place
 SAMPLES = 801  # points of a central section
 FLATTEN = 1e-6  # heights are scaled by it where only the plan position counts
 
@@ -163,7 +169,11 @@ def _read_triangles(path: Path) -> tuple[np.ndarray, np.ndarray]:
     try:
         with warnings.catch_warnings(record=True) as caught, pyvista.vtk_verbosity("off"):
             warnings.simplefilter("always")
-            mesh = pyvista.read(path).extract_surface(algorithm=None).triangulate().clean()
+            mesh = pyvista.read(path)
+            _check_numbers(path, mesh)
+            mesh = mesh.extract_surface(algorithm=None).triangulate().clean()
+    except InputError:
+        raise
     except Exception as error:  # the readers raise what they like
         raise InputError(f"{path}: cannot be read as a mesh ({error})") from None
     if any("raised an error" in str(warning.message) for warning in caught):
@@ -179,6 +189,23 @@ def _read_triangles(path: Path) -> tuple[np.ndarray, np.ndarray]:
         np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
     )
     return vertices, triangles[area > 1e-14 * area.max()]
+
+
+def _check_numbers(path: Path, mesh: "pyvista.DataSet") -> None:
+    """Refuse cells that name vertices the file does not hold: VTK reads past its arrays."""
+    if hasattr(mesh, "GetPolys"):
+        cells = mesh.GetPolys()
+    elif hasattr(mesh, "GetCells"):
+        cells = mesh.GetCells()
+    else:
+        return
+    count = cells.GetConnectivityArray().GetNumberOfTuples() if cells else 0
+    low, high = cells.GetConnectivityArray().GetRange() if count else (0, -1)
+    if low < 0 or high >= mesh.n_points:
+        wrong = low if low < 0 else high
+        raise InputError(
+            f"{path}: a cell of vertex {wrong:.0f} (counted from 0): must be below {mesh.n_points}"
+        )
 
 
 def _check_scale(path: str | Path, vertices: np.ndarray, span: float) -> None:
@@ -199,9 +226,16 @@ def _check_surface(path: str | Path, vertices: np.ndarray, triangles: np.ndarray
     if not (count == 1).any():
         raise InputError(f"{path}: a closed surface: an open one over the plan is needed")
     corners = vertices[triangles]
-    plan = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])[:, 2]
+    double = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
+    area, plan = np.linalg.norm(double, axis=1), np.abs(double[:, 2])
+    walls = (plan < math.cos(STEEPEST) * area) & (area > 1e-6 * area.sum())
+    if walls.any():
+        raise InputError(
+            f"{path}: {walls.sum()} triangles steeper than {math.degrees(STEEPEST):.0f} deg: "
+            "a surface without walls is needed, z up"
+        )
     low, high = vertices[:, :2].min(axis=0), vertices[:, :2].max(axis=0)
-    if np.abs(plan).sum() / 2 > 1.01 * np.prod(high - low):
+    if plan.sum() / 2 > 1.01 * np.prod(high - low):
         raise InputError(f"{path}: surface lies over itself in plan: one height a place is needed")
 
 
