@@ -72,6 +72,7 @@ def measure_report(report: Mapping[str, Any], strength: Mapping[str, Any]) -> di
         "iterations": report["iteration"] + 1,
         "volume": report["volume_m3"],
         "volume_per_area": report["volume_m3"] / report["area_m2"],
+        "volume_change": report["criteria"].get("volume_change_relative", {}).get("value"),
         "displacement": report.get("displacement_vertical_max_m"),
         "buckling_factor": min(known, default=None),
         **{name: report.get(name) for name in SCALARS},

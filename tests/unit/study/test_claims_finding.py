@@ -115,6 +115,12 @@ def test_uncertainty_of_a_volume_is_that_of_the_panels_not_at_a_bound():
     assert estimate_uncertainty(thin, "volume_per_area", 0.12) == 0.0
 
 
+def test_a_volume_that_has_not_settled_is_as_uncertain_as_its_last_change():
+    """sqrt(5^2 + 12^2) = 13 %, though the loop asks for 1 %."""
+    open_end = make_outcome({"volume_change": 0.12})
+    assert estimate_uncertainty(open_end, "volume", 0.01) == pytest.approx(80 * 0.13)
+
+
 def test_a_pair_adds_the_uncertainty_of_both():
     """50 and 54 mm: 2.5 and 2.7 mm, together 3.68 mm, less than the difference."""
     low, high = make_outcome(), make_outcome({"displacement": 0.054})

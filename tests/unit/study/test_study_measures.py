@@ -80,7 +80,7 @@ def test_no_answer_gives_no_numbers():
 def test_least_factor_is_that_of_the_strength_combinations():
     report = {
         "verdict": "converged", "reason": "", "iteration": 14, "volume_m3": 80.0, "area_m2": 1600.0,
-        "buckling_factor": {"S1": 4.0, "S2": 3.0, "S3": None, "D1": 2.0},
+        "criteria": {}, "buckling_factor": {"S1": 4.0, "S2": 3.0, "S3": None, "D1": 2.0},
     }  # fmt: skip
     found = measure_report(report, {"S1": {}, "S2": {}, "S3": {}})
     assert found["buckling_factor"] == 3.0 and found["iterations"] == 15

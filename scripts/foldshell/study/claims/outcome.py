@@ -74,8 +74,8 @@ def estimate_uncertainty(outcome: Outcome, quantity: str, volume_step: float) ->
 
     Mesh error and cross-check difference as root of the sum of squares. Volume inherits the
     larger of those of displacement and utilization, since a thickness follows either at most in
-    proportion, and the change of volume `volume_step` that ends the loop; both on the share of
-    panels that do not stand at a bound.
+    proportion, and the change of volume `volume_step` that ends the loop, or the last one where
+    that is larger; both on the share of panels that do not stand at a bound.
     """
     value, kind = outcome.values.get(quantity), QUANTITIES[quantity].error
     if value is None:
@@ -93,7 +93,8 @@ def estimate_uncertainty(outcome: Outcome, quantity: str, volume_step: float) ->
         return 0.0
     errors = [combine_errors(*outcome.errors.get(name, (None, None)))
               for name in ("displacement", "utilization")]  # fmt: skip
-    relative = None if None in errors else combine_errors(max(errors), volume_step)
+    step = max(volume_step, outcome.values.get("volume_change") or 0.0)
+    relative = None if None in errors else combine_errors(max(errors), step)
     return None if relative is None else abs(value) * free * relative
 
 
