@@ -8,7 +8,6 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.optimize import brentq
 
 from foldshell.pattern.grid import Grid, build_grid
 from foldshell.pattern.miura import rest_fold_angle
@@ -91,6 +90,8 @@ def size_arc_miura(
     most = min(LARGEST_CHANGE / 2, (math.radians(88) - sector_angle))
     if miss(most) < 0 or miss(-most) > 0:
         raise ValueError(f"turning of {math.degrees(turning):.0f} deg: too much for {zigzags} rows")
+    from scipy.optimize import brentq  # takes longer to import than most patterns to make
+
     change = brentq(miss, -most, most)
     even, odd = sector_angle - change, sector_angle + change
     # Even (lowest) vertices are a chord over an odd one apart, so its slope sets their distance.
