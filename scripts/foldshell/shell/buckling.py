@@ -12,8 +12,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 PAIRS = 2
-"""Modes that are followed for each combination. The second one is only found roughly, which is
-what keeps the first from settling on a mode that is not the lowest."""
+"""Least number of modes that are followed for each combination. All but the first are only found
+roughly, which is what keeps the first from settling on a mode that is not the lowest."""
+
+FOLLOWED = 8
+"""Least number of modes that are followed in all: few combinations follow more modes each."""
 
 NEIGHBOUR_TOLERANCE = 0.2
 """Change at which the second mode is known well enough."""
@@ -88,10 +91,11 @@ def _find_distinct(
     if start is not None:
         begin = np.hstack([begin, _own_images(apply_cases, start, factors)])
     space.extend(begin)
-    change = np.full((PAIRS, factors.shape[1]), np.inf)
-    limit = np.array([tolerance, *[NEIGHBOUR_TOLERANCE] * (PAIRS - 1)])[:, None]
+    pairs = max(PAIRS, -(-FOLLOWED // factors.shape[1]))
+    change = np.full((pairs, factors.shape[1]), np.inf)
+    limit = np.array([tolerance, *[NEIGHBOUR_TOLERANCE] * (pairs - 1)])[:, None]
     for number in range(iterations_max):
-        values, vectors = space.largest(factors, PAIRS)
+        values, vectors = space.largest(factors, pairs)
         searching = (values * LARGEST_FACTOR > 1) | ((number < SEARCH_ITERATIONS) & (values != 0))
         pair, column = np.nonzero((change > limit) & searching)
         if not len(pair):

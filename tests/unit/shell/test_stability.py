@@ -350,3 +350,13 @@ def test_supports_on_one_line_are_refused():
     mesh = folded_strip(1, 2)
     with pytest.raises(ValueError, match="one line"):
         build_model(mesh, mesh.pair_nodes[0], 0.2)
+
+
+def test_few_combinations_follow_more_modes_each():
+    """Each alone gives what all together give: 1e-4, the square of the mode change."""
+    model = arch_model()
+    thickness = np.full(64, 0.05)
+    together = analyse_shell(model, thickness, CONCRETE, Loads(), COMBINATIONS).buckling.factors
+    for column, (name, factors) in enumerate(COMBINATIONS.items()):
+        alone = analyse_shell(model, thickness, CONCRETE, Loads(), {name: factors})
+        assert alone.buckling.factors[0] == pytest.approx(together[column], rel=1e-4)
