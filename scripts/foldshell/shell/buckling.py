@@ -91,7 +91,7 @@ def _find_distinct(
     if start is not None:
         begin = np.hstack([begin, _own_images(apply_cases, start, factors)])
     space.extend(begin)
-    pairs = max(PAIRS, -(-FOLLOWED // factors.shape[1]))
+    pairs = min(max(PAIRS, -(-FOLLOWED // factors.shape[1])), size)
     change = np.full((pairs, factors.shape[1]), np.inf)
     limit = np.array([tolerance, *[NEIGHBOUR_TOLERANCE] * (pairs - 1)])[:, None]
     for number in range(iterations_max):
