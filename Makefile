@@ -9,11 +9,12 @@ RUN := $(VENV)/bin
 export OPENBLAS_NUM_THREADS ?= 1
 export OMP_NUM_THREADS ?= 1
 
-.PHONY: help study demo test verification lint bench clean
+.PHONY: help study demo report test verification lint bench clean
 
 help:
 	@echo "make study         fold, size and cross-check the nine designs tagged supports: results/summary.xlsx"
-	@echo "make demo          one small design to its pictures: results/tags/demo/summary.xlsx"
+	@echo "make demo          one small design to its page: results/demo-paraboloid-5-2-9x8-all/page.html"
+	@echo "make report        Table 1, the claims and results/report.html"
 	@echo "make test          the tests"
 	@echo "make verification  the long verification chapter"
 	@echo "make bench         timings, written to results/bench"
@@ -31,6 +32,9 @@ study: $(STAMP)
 
 demo: $(STAMP)
 	PATH="$(CURDIR)/$(RUN):$$PATH" snakemake --cores $(CORES) demo
+
+report: $(STAMP)
+	PATH="$(CURDIR)/$(RUN):$$PATH" snakemake --cores $(CORES) all report
 
 test: $(STAMP)
 	PATH="$(CURDIR)/$(RUN):$$PATH" python -m pytest

@@ -82,7 +82,7 @@ def describe_design(design: Mapping[str, Any]) -> str:
     """Return the row of designs.tsv as one sentence."""
     tags = ", ".join(str(design.get("tags") or "none").split(","))
     return escape(
-        f"{design['pattern']} pattern on a {design['surface']}, span {design['span_m']:g} m, "
+        f"{design['pattern']} pattern, surface {design['surface']}, span {design['span_m']:g} m, "
         f"height {design['height_m']:g} m, {design['zigzag']} zig-zags × {design['strip']} strips, "
         f"{design['support']} edges supported, folded in mode {design['fold_mode']}; tags {tags}"
     )
