@@ -21,9 +21,13 @@ from foldshell.pattern.design import design_sheet
 
 pytestmark = pytest.mark.bench
 TABLE = Path(__file__).parents[2] / "results" / "bench" / "folding.csv"
-FIELDS = ("task", "code", "solver", "vertices", "cpu_s", "wall_s", "rss_mb", "iterations", "value")
+FIELDS = (
+    "task", "code", "solver", "surface", "vertices", "cpu_s", "wall_s", "rss_mb", "iterations",
+    "value", "exponent",
+)  # fmt: skip
 SIZES = ((15, 16), (30, 32), (50, 50), (70, 70), (100, 100))
 SURFACES = ("paraboloid", "hypar", "arch")
+DEFAULT = "cholmod" if cholmod else "superlu"
 
 
 def _case(surface, zigzag, strip):
@@ -31,7 +35,7 @@ def _case(surface, zigzag, strip):
     return design_sheet("miura", target.section_lengths(), zigzag, strip, 60.0, 0), target
 
 
-def _time(task, solver, sheet, target, settings=None, mode="paper"):
+def _time(solver, sheet, target, settings=None, mode="paper"):
     """Best of three runs for small tasks, one for long ones; `value` is rms over span."""
     settings = settings or FoldSettings()
     best = None
@@ -46,9 +50,10 @@ def _time(task, solver, sheet, target, settings=None, mode="paper"):
     closest, normals = target.find_closest(points)
     rms = math.sqrt(np.mean(np.einsum("ij,ij->i", normals, points - closest) ** 2)) / target.span
     return {
-        "task": task,
+        "task": "exact" if mode == "exact" else "fold",
         "code": "foldshell",
         "solver": solver,
+        "surface": target.name,
         "vertices": len(shape.vertices),
         "cpu_s": round(best[0], 4),
         "wall_s": round(best[1], 4),
@@ -73,33 +78,29 @@ def _write(rows):
 
 
 def test_cost_of_folding(monkeypatch):
-    """Every surface by size; both factorisations; both engines; exact mode at two sizes."""
-    rows = []
-    for surface in SURFACES:
-        rows += [_time(f"fold {surface}", "default", *_case(surface, *size)) for size in SIZES]
+    """Every surface by size; both factorisations; both engines; exact mode at three sizes."""
+    series = [[_time(DEFAULT, *_case(surface, *size)) for size in SIZES] for surface in SURFACES]
+    exact = ((15, 16), (30, 16), (30, 32))
+    series.append([_time(DEFAULT, *_case("paraboloid", *size), mode="exact") for size in exact])
     if cholmod:
         monkeypatch.setattr("foldshell.folding.normal_equations.cholmod", None)
-        rows += [_time("fold paraboloid", "superlu", *_case("paraboloid", *s)) for s in SIZES[:4]]
+        series.append([_time("superlu", *_case("paraboloid", *size)) for size in SIZES[:4]])
         monkeypatch.undo()
+    for rows in series:
+        exponent = _exponent(rows)
+        for row in rows:
+            row["exponent"] = round(exponent, 3)
+        names = " ".join(rows[0][key] for key in ("task", "surface", "solver"))
+        print(f"{names}: cpu ~ vertices^{exponent:.2f}")
     explicit = FoldSettings(engine="averaged_projections")
-    rows.append(_time("fold paraboloid", "averaged_projections", *_case("paraboloid", 15, 16),
-                      explicit))  # fmt: skip
-    for size in ((30, 16), (30, 32)):
-        rows.append(_time("exact paraboloid", "default", *_case("paraboloid", *size), mode="exact"))
-    exponents = {
-        surface: _exponent([r for r in rows if r["task"] == f"fold {surface}"][: len(SIZES)])
-        for surface in SURFACES
-    }
-    for surface, exponent in exponents.items():
-        rows.append({"task": f"exponent {surface}", "code": "foldshell", "value": exponent})
-        print(f"{surface}: cpu ~ vertices^{exponent:.2f}")
-    _write(rows)
-    assert max(exponents.values()) < 2.0
+    series.append([_time("averaged_projections", *_case("paraboloid", 15, 16), explicit)])
+    _write([row for rows in series for row in rows])
+    assert max(rows[0]["exponent"] for rows in series[:-1]) < 2.0
 
 
 def test_checks_are_cheap_beside_folding():
     """Quality with self-intersections on 10 000 vertices must not dwarf the folding itself."""
     sheet, target = _case("paraboloid", 70, 70)
     result = fold_sheet(sheet, target, "paper", FoldSettings())
-    solved = _time("fold", "default", sheet, target)
+    solved = _time(DEFAULT, sheet, target)
     assert result.seconds < 10 * solved["wall_s"]

@@ -58,14 +58,54 @@ def test_distances_are_those_of_the_surface(tmp_path):
 def test_sheets_follow_free_forms(tmp_path, name):
     """rms <= 1e-3 span in paper mode; constraints 1e-9 in exact mode."""
     write_surface(tmp_path / name, SHAPES[name])
-    target = make_target(str(tmp_path / name), 28.0, 10.0)
-    sheet = design_sheet("miura", target.section_lengths(), 15, 16, 60.0, 0)
+    _assert_followed(tmp_path / name, 15, 16)
+
+
+def _assert_followed(path, zigzag, strip):
+    target = make_target(str(path), 28.0, 10.0)
+    sheet = design_sheet("miura", target.section_lengths(), zigzag, strip, 60.0, 0)
     soft = fold_sheet(sheet, target, "paper", FoldSettings())
     assert soft.state == "ok" and soft.quality.rms_over_span <= 1e-3
     true = fold_sheet(sheet, target, "exact", FoldSettings())
     assert true.state == "ok", true.reason
     assert true.shape.residuals["constraint_residual"] <= 1e-9
+    assert true.shape.residuals["unfold_closure_m"] <= 1e-9
     assert true.quality.max_over_span <= 1e-9
+
+
+OTHER_SHAPES = {
+    "vault.obj": lambda x, y: (6 + 1.5 * np.sin(y / 9)) * np.cos(np.pi * x / (40 + 0.3 * y)),
+    "bumpy.ply": lambda x, y: (
+        4 - 0.01 * (x**2 + y**2) + 0.8 * np.sin(x / 3.5 + 1) * np.cos(y / 4.2)
+        + 0.5 * np.sin((x + y) / 5)
+    ),
+    "patch.vtu": lambda x, y: np.sqrt(900 - (x - 6) ** 2 - (y + 5) ** 2) - 20,
+    "ridge.stl": lambda x, y: 5 * np.exp(-(((x + y) / 12) ** 2)) - 0.008 * (x - y) ** 2,
+}  # fmt: skip
+
+
+def _shuffle(mesh, seed=1):
+    """Renumber vertices, reorder and turn triangles, and turn half of them over."""
+    rng = np.random.default_rng(seed)
+    faces = mesh.faces.reshape(-1, 4)[:, 1:]
+    order = rng.permutation(mesh.n_points)
+    faces = np.argsort(order)[faces][rng.permutation(len(faces))]
+    faces = np.array([np.roll(face, rng.integers(3)) for face in faces])
+    over = rng.random(len(faces)) < 0.5
+    faces[over] = faces[over][:, ::-1]
+    return pyvista.PolyData.from_regular_faces(np.asarray(mesh.points)[order], faces)
+
+
+@pytest.mark.verification
+@pytest.mark.parametrize("name", OTHER_SHAPES)
+def test_sheets_follow_shuffled_free_forms(tmp_path, name):
+    """A vault of changing curvature, a bumpy sheet, a dome off its centre, a slanting ridge."""
+    mesh = _shuffle(write_surface(tmp_path / "whole.stl", OTHER_SHAPES[name]))
+    if name.endswith(".vtu"):
+        mesh = mesh.cast_to_unstructured_grid()
+    mesh.save(tmp_path / name)
+    for zigzag, strip in ((15, 16), (30, 16)):
+        _assert_followed(tmp_path / name, zigzag, strip)
 
 
 def test_a_mesh_beside_the_origin_is_centred(tmp_path):
@@ -111,3 +151,28 @@ def test_closed_doubled_and_holed_surfaces_are_refused(tmp_path):
     keep = np.hypot(centre[:, 0] - 5, centre[:, 1]) > 3
     mesh.extract_cells(keep).extract_surface(algorithm=None).save(tmp_path / "hole.stl")
     _refuse(tmp_path / "hole.stl", "no surface above")
+
+
+def test_damaged_triangles_are_refused(tmp_path):
+    """Each file differs from a good one by a vertex, a triangle or a row of walls."""
+    mesh = write_surface(tmp_path / "a.stl", SHAPES["dome.vtk"], points=40)
+    points, faces = np.asarray(mesh.points, dtype=float), mesh.faces.reshape(-1, 4)[:, 1:]
+
+    def write(name, points, faces):
+        lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in points.tolist()]
+        lines += [f"f {a} {b} {c}" for a, b, c in (faces + 1).tolist()]
+        (tmp_path / name).write_text("\n".join(lines) + "\n")
+        return tmp_path / name
+
+    make_target(str(write("good.obj", points, faces)), 28.0, 10.0)
+    broken = points.copy()
+    broken[50, 2] = np.nan
+    _refuse(write("nan.obj", broken, faces), "not finite")
+    _refuse(write("far.obj", points, np.vstack([faces, [[0, 1, 10**6]]])), "vertex 999999|1000000")
+    fin = np.vstack([points, [[0.0, 0.0, 20.0]]])
+    third = np.vstack([faces, [[*faces[900, :2], len(points)]]])
+    _refuse(write("fin.obj", fin, third), "three or more triangles")
+    step = points * [1, 1, 0] + np.outer(points[:, 0] > 2, [0, 0, 12])
+    _refuse(write("wall.obj", step, faces), "steeper than 85 deg")
+    _refuse(write("up.obj", points[:, [0, 2, 1]], faces), "must cover the span")
+    _refuse(write("none.obj", points, faces[:0]), "0 triangles")
