@@ -12,6 +12,8 @@ rule neutral_model:
         model=f"{RESULTS}/{{design}}/crosscheck/model.json",
     params:
         settings=of_stage("crosscheck"),
+    benchmark:
+        timing("neutral_model")
     conda:
         "../envs/foldshell.yaml"
     script:
@@ -33,6 +35,8 @@ rule refine:
         edge_beam=edge_beam,
         subdivisions=subdivisions,
         settings=of_stage("crosscheck"),
+    benchmark:
+        timing("refine")
     conda:
         "../envs/foldshell.yaml"
     script:
@@ -52,6 +56,8 @@ rule crosscheck:
     params:
         subdivisions=SETTINGS.crosscheck.subdivisions,
         tolerance=stage_parameters(SETTINGS, "crosscheck")["crosscheck"]["tolerance"],
+    benchmark:
+        timing("crosscheck")
     conda:
         "../envs/foldshell.yaml"
     script:

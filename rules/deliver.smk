@@ -18,6 +18,8 @@ rule draw:
     params:
         **of_design("span_m", "pattern"),
         settings=lambda wildcards: of_stage("size")(wildcards) | of_stage("figures")(wildcards),
+    benchmark:
+        timing("draw")
     conda:
         "../envs/foldshell.yaml"
     script:
@@ -51,6 +53,8 @@ rule page:
     params:
         design=lambda wildcards: BY_NAME[wildcards.design].to_row(),
         settings=of_stage("size"),
+    benchmark:
+        timing("page")
     conda:
         "../envs/foldshell.yaml"
     script:

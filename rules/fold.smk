@@ -12,6 +12,8 @@ rule fold:
     params:
         **of_design("surface", "span_m", "height_m", "fold_mode"),
         settings=lambda wildcards: of_stage("fold")(wildcards)["fold"],
+    benchmark:
+        timing("fold")
     conda:
         "../envs/foldshell.yaml"
     script:

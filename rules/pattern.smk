@@ -11,6 +11,8 @@ rule pattern:
     params:
         **of_design("pattern", "surface", "span_m", "height_m", "zigzag", "strip"),
         sector_angle_deg=SECTOR_ANGLE_DEG,
+    benchmark:
+        timing("pattern")
     conda:
         "../envs/foldshell.yaml"
     script:

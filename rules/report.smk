@@ -13,7 +13,7 @@ def has_claims():
 def report_files(wildcards):
     """Return what the report shows."""
     pages = [f"{RESULTS}/report/{name}.html" for name in ("summary", "verification", "settings")]
-    pages += [f"{RESULTS}/report/claims.html"] * has_claims()
+    pages += [f"{RESULTS}/timings.csv"] + [f"{RESULTS}/report/claims.html"] * has_claims()
     figures = [f"{RESULTS}/figures/{name}.png" for name in CHARTS + SHEETS]
     return pages + figures + [f"{RESULTS}/{name}/page.html" for name in names_of_tag(SETTINGS.study)]
 

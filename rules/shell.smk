@@ -11,6 +11,8 @@ rule mesh:
         **of_design("support"),
         edge_beam=edge_beam,
         subdivisions=subdivisions,
+    benchmark:
+        timing("mesh")
     conda:
         "../envs/foldshell.yaml"
     script:

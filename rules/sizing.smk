@@ -17,6 +17,8 @@ rule start:
             for name in ("start_thickness", "least_thickness", "largest_thickness")
         },
         settings_hash=settings_hash_of("start"),
+    benchmark:
+        timing("start")
     conda:
         "../envs/foldshell.yaml"
     script:
@@ -37,6 +39,8 @@ checkpoint analyse:
     params:
         **of_design("span_m", "zigzag", "strip"),
         settings=of_stage("analyse"),
+    benchmark:
+        timing("analyse", "-{iteration}")
     conda:
         "../envs/foldshell.yaml"
     script:
@@ -60,6 +64,8 @@ rule resize:
         **of_design("zigzag", "strip"),
         settings=of_stage("resize"),
         settings_hash=settings_hash_of("resize"),
+    benchmark:
+        timing("resize", "-{iteration}")
     conda:
         "../envs/foldshell.yaml"
     script:
@@ -80,6 +86,8 @@ rule group:
         **of_design("span_m"),
         classes=SETTINGS.sizing.classes,
         settings=of_stage("analyse"),
+    benchmark:
+        timing("group")
     conda:
         "../envs/foldshell.yaml"
     script:
@@ -103,6 +111,8 @@ rule size:
         design=lambda wildcards: BY_NAME[wildcards.design].to_row(),
         settings=of_stage("size"),
         settings_hash=settings_hash_of("size"),
+    benchmark:
+        timing("size")
     conda:
         "../envs/foldshell.yaml"
     script:

@@ -51,4 +51,24 @@ use rule summary as summary_of_tag with:
         settings=stage_parameters(SETTINGS, "study"),
 
 
+rule timings:
+    message:
+        "time of each rule"
+    input:
+        rules.summary.output.csv,
+        study_files(SETTINGS.study),
+        library=library("timings"),
+    output:
+        csv=report(
+            f"{RESULTS}/timings.csv",
+            category="6 Settings and versions",
+            caption="../docs/report/timings.rst",
+            labels={"page": "time of each rule"},
+        ),
+    params:
+        folder=f"{RESULTS}/benchmarks",
+    script:
+        "../scripts/timings.py"
+
+
 include: "claims.smk"

@@ -1,0 +1,24 @@
+"""Times of jobs are added up rule by rule."""
+
+from foldshell.study.timings import COLUMNS, collect_timings
+
+HEADER = "s\th:m:s\tmax_rss\tmax_vms\tmax_uss\tmax_pss\tio_in\tio_out\tmean_load\tcpu_time\n"
+
+
+def write(folder, name, wall, rss, cpu):
+    path = folder / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_text(f"{HEADER}{wall}\t0:00:01\t{rss}\t1\t1\t1\t0\t0\t90\t{cpu}\n")
+
+
+def test_jobs_are_added_up(tmp_path):
+    write(tmp_path, "fold/a.tsv", 0.5, 90, 0.4)
+    write(tmp_path, "analyse/a-00.tsv", 2.0, 300.5, 1.5)
+    write(tmp_path, "analyse/a-01.tsv", 4.0, 200, "NA")
+    rows = collect_timings(tmp_path)
+    assert [tuple(row) for row in rows] == [COLUMNS] * 3
+    assert [tuple(row.values()) for row in rows] == [
+        ("analyse", 2, 1.5, 6.0, 3.0, 4.0, 300.5),
+        ("fold", 1, 0.4, 0.5, 0.5, 0.5, 90.0),
+        ("all", 3, 1.9, 6.5, 2.17, 4.0, 300.5),
+    ]
