@@ -98,55 +98,11 @@ def test_a_mechanism_that_only_the_independent_code_finds_fails(
     assert result["pass"] is False and "let the shell move" in result["reason"]
 
 
-def slip_load_factor(model):
-    model["combinations"]["S2"]["LL"] = 1.4
-
-
-def slip_unit(model):
-    model["material"]["youngs_modulus_kpa"] = 31e3
-
-
-def slip_support(model):
-    model["supported_edges"] = model["supported_edges"][1:]
-
-
-def slip_thickness(model):
-    model["panel_thickness_m"] = [1.1 * t for t in model["panel_thickness_m"]]
-
-
-def slip_one_thickness(model):
-    model["panel_thickness_m"][3] *= 1.5
-
-
-def slip_wind(model):
-    model["loads_kn_m2"]["wind_fraction"] = 1.0
-
-
-def slip_wind_axis(model):
-    for factors in model["combinations"].values():
-        factors["WY"] = factors.pop("WX")
-
-
-def slip_unit_weight(model):
-    model["material"]["unit_weight_kn_m3"] = 24.0
-
-
-def slip_strength(model):
-    model["material"]["strength_kpa"] = 25000.0
-
-
-SLIPS = [value for name, value in globals().copy().items() if name.startswith("slip_")]
-
-
-@pytest.mark.parametrize("slip", SLIPS, ids=lambda slip: slip.__name__)
-def test_a_planted_slip_is_caught(main, tmp_path, primary_values, slip):
-    """One code alone sees the slip, this one or the other: the comparison must fail."""
+def test_another_load_factor_fails_the_comparison(main, tmp_path, primary_values):
+    """More slips, in either code: test_planted_slips.py."""
     wrong = describe_small_fold()
-    slip(wrong)
+    wrong["combinations"]["S2"]["LL"] = 1.4
     paths = write_inputs(tmp_path, primary_values, wrong)
-    main(*paths, subdivisions=[1, 2])
-    assert not json.loads(paths[2].read_text())["pass"]
-    paths = write_inputs(tmp_path, compute_primary(tmp_path, wrong))
     main(*paths, subdivisions=[1, 2])
     assert not json.loads(paths[2].read_text())["pass"]
 
