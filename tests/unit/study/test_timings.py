@@ -14,11 +14,11 @@ def write(folder, name, wall, rss, cpu):
 def test_jobs_are_added_up(tmp_path):
     write(tmp_path, "fold/a.tsv", 0.5, 90, 0.4)
     write(tmp_path, "analyse/a-00.tsv", 2.0, 300.5, 1.5)
-    write(tmp_path, "analyse/a-01.tsv", 4.0, 200, "NA")
+    write(tmp_path, "analyse/a-01.tsv", 4.0, "NA", 0)
     rows = collect_timings(tmp_path)
     assert [tuple(row) for row in rows] == [COLUMNS] * 3
     assert [tuple(row.values()) for row in rows] == [
-        ("analyse", 2, 1.5, 6.0, 3.0, 4.0, 300.5),
-        ("fold", 1, 0.4, 0.5, 0.5, 0.5, 90.0),
-        ("all", 3, 1.9, 6.5, 2.17, 4.0, 300.5),
+        ("analyse", 2, 6.0, 3.0, 4.0, 300.5),
+        ("fold", 1, 0.5, 0.5, 0.5, 90.0),
+        ("all", 3, 6.5, 2.17, 4.0, 300.5),
     ]
