@@ -1,0 +1,28 @@
+"""Rules report_pages and claims_page: pages of the report from files."""
+
+import claims_page
+import report_pages
+from unit.report.test_study_pages import HEADER
+
+
+def test_three_pages_are_written(tmp_path):
+    """Summary from CSV, verification from Markdown, settings with hash and versions."""
+    (tmp_path / "summary.csv").write_text(
+        f"{HEADER}\na,converged,arch,28,10,15,16,all,95,0.06,0.6,2,0.09,10,0.04,pass,15,met\n"
+    )
+    (tmp_path / "a.md").write_text("# Shell\n\n| problem | value |\n|---|---|\n| plate | 4 |\n")
+    pages = {name: tmp_path / f"{name}.html" for name in ("summary", "verification", "settings")}
+    report_pages.main(tmp_path / "summary.csv", [tmp_path / "a.md"], pages,
+                      {"sizing": {"step": 0.1}})  # fmt: skip
+    text = {name: path.read_text(encoding="utf-8") for name, path in pages.items()}
+    assert "1 converged: 1 in all" in text["summary"]
+    assert "<td>plate</td><td>4</td>" in text["verification"]
+    for part in ("<td>step</td>", "snakemake", "numpy"):
+        assert part in text["settings"]
+
+
+def test_claims_become_a_page(tmp_path):
+    """The verdict in claims.md stands in the page."""
+    (tmp_path / "claims.md").write_text("# Claims\n\n## C1: holds\n\nIt is `auxetic`.\n")
+    claims_page.main(tmp_path / "claims.md", tmp_path / "claims.html")
+    assert "<h2>C1: holds</h2>" in (tmp_path / "claims.html").read_text(encoding="utf-8")

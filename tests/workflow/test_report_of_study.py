@@ -1,0 +1,27 @@
+"""The report of a tiny study, as Snakemake makes it from the workflow's own rules."""
+
+import json
+import re
+
+import pytest
+from study_runner import copy_code, make_study, run
+
+BROWSERS_LIMIT = 2_000_000
+"""Characters of a data URI that Chromium still shows in a frame."""
+
+
+@pytest.mark.slow
+def test_report_holds_every_page_below_the_limit(tmp_path):
+    """Pages of both designs, summary, verification, settings and figures; no claims, no host."""
+    code, folder = copy_code(tmp_path / "code"), make_study(tmp_path / "study")
+    done = run(code, folder, "results/report.html")
+    assert done.returncode == 0, done.stderr[-3000:]
+    text = (folder / "results/report.html").read_text(encoding="utf-8")
+    data = re.search(r"var results = (\{.*?\});\n", text, re.S)[1]
+    results = json.loads(data)
+    for name in ("tiny-dome/page", "tiny-saddle/page", "report/summary", "report/verification",
+                 "report/settings"):  # fmt: skip
+        assert len(results[f"results/{name}.html"]["data_uri"]) < BROWSERS_LIMIT
+    assert "results/figures/supports.png" in results
+    assert "results/report/claims.html" not in results
+    assert not re.search(r'<(?:script|link|img)[^>]+(?:src|href)="http', text)
