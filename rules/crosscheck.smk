@@ -62,3 +62,21 @@ rule crosscheck:
         "../envs/foldshell.yaml"
     script:
         "../scripts/crosscheck.py"
+
+
+THIRD = [f"{RESULTS}/{d.name}/crosscheck" for d in DESIGNS if "supports" in d.tags]
+
+
+rule crosscheck_opensees:
+    message:
+        "A third opinion by OpenSees, where openseespy is installed"
+    input:
+        models=[f"{folder}/model.json" for folder in THIRD],
+        primaries=[f"{folder}/primary.json" for folder in THIRD],
+        library=library("crosscheck_opensees"),
+    output:
+        table=f"{RESULTS}/crosscheck_opensees.csv",
+    conda:
+        "../envs/foldshell.yaml"
+    script:
+        "../scripts/crosscheck_opensees.py"

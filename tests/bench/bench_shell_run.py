@@ -21,60 +21,53 @@ sys.path[:0] = [str(ROOT / "scripts"), str(ROOT / "tests"), str(ROOT / "tests" /
 from bench_shell_models import COMBINATION, peer_model  # noqa: E402
 from bench_shell_stability import TASKS, Problem  # noqa: E402
 
+from crosscheck.opensees import (  # noqa: E402
+    ShellGrid,
+    enter_shell,
+    open_opensees,
+    prepare_linear,
+    solve_columns,
+)
 from verification.folded_cases import CASES, CONCRETE  # noqa: E402
 
 SHAPES = {"ASDShellT3": "T3", "ASDShellQ4": "Q4", "S3": "T3", "S6": "T6", "S8R": "Q8"}
 
 
-def _build_opensees(ops, model, element, flags):
-    """Enter nodes, supports, section and elements."""
-    ops.wipe()
-    ops.model("basic", "-ndm", 3, "-ndf", 6)
-    for tag, point in enumerate(model.nodes.tolist(), 1):
-        ops.node(tag, *point)
-    for tag in (model.supported + 1).tolist():
-        ops.fix(tag, 1, 1, 1, 0, 0, 0)
-    ops.section("ElasticMembranePlateSection", 1, CONCRETE.youngs_modulus,
-                CONCRETE.poissons_ratio, model.thickness, 0.0)  # fmt: skip
-    for tag, nodes in enumerate((model.elements + 1).tolist(), 1):
-        ops.element(element, tag, *nodes, 1, *flags)
-
-
 def run_opensees(case, n, element, system, task):
     """Return CPU s, wall s, dofs and the largest downward displacement."""
-    import openseespy.opensees as ops
-
+    ops = open_opensees()
     model = peer_model(case, n, SHAPES[element])
     forces = model.forces if task == "linear7" else (model.forces[..., :5] @ COMBINATION)[..., None]
     began = time.process_time(), time.perf_counter()
-    _build_opensees(ops, model, element, ["-corotational"] if task == "corotational" else [])
+    grid = ShellGrid(
+        model.nodes, model.elements, model.supported, forces,
+        np.full(len(model.elements), model.thickness), CONCRETE.youngs_modulus,
+        CONCRETE.poissons_ratio,
+    )  # fmt: skip
+    second = task == "corotational"
+    enter_shell(ops, grid, element, ["-corotational"] if second else [])
+    if second:
+        _prepare_newton(ops, system)
+    else:
+        prepare_linear(ops, system)
+    value = 0.0
+    for number in solve_columns(ops, grid, steps=2 if second else 1):
+        moved = np.array([ops.nodeDisp(tag, 3) for tag in (grid.free + 1).tolist()])
+        if number in (0, 2):
+            value = -moved.min()
+    cpu, wall = time.process_time() - began[0], time.perf_counter() - began[1]
+    return cpu, wall, 6 * len(model.nodes) - 3 * len(model.supported), float(value)
+
+
+def _prepare_newton(ops, system):
+    """Set up second-order analysis in two steps."""
     ops.constraints("Plain")
     ops.numberer("RCM" if system != "UmfPack" else "Plain")
     ops.system(system)
-    if task == "corotational":
-        ops.test("NormDispIncr", 1e-8, 50)
-        ops.algorithm("Newton")
-    else:
-        ops.algorithm("Linear", "-factorOnce")
-    steps = 2 if task == "corotational" else 1
-    ops.integrator("LoadControl", 1.0 / steps)
+    ops.test("NormDispIncr", 1e-8, 50)
+    ops.algorithm("Newton")
+    ops.integrator("LoadControl", 0.5)
     ops.analysis("Static")
-    free = np.setdiff1d(np.arange(len(model.nodes)), model.supported)
-    value = 0.0
-    for number in range(forces.shape[2]):
-        ops.timeSeries("Linear", number + 1)
-        ops.pattern("Plain", number + 1, number + 1)
-        for tag, force in zip((free + 1).tolist(), forces[free, :, number].tolist(), strict=True):
-            ops.load(tag, *force, 0.0, 0.0, 0.0)
-        ops.setTime(0.0)
-        if ops.analyze(steps) != 0:
-            raise ArithmeticError("OpenSees did not converge")
-        moved = np.array([ops.nodeDisp(tag, 3) for tag in (free + 1).tolist()])
-        value = -moved.min() if number in (0, 2) and forces.shape[2] > 1 else value
-        value = -moved.min() if forces.shape[2] == 1 else value
-        ops.remove("loadPattern", number + 1)
-    cpu, wall = time.process_time() - began[0], time.perf_counter() - began[1]
-    return cpu, wall, 6 * len(model.nodes) - 3 * len(model.supported), float(value)
 
 
 def run_calculix(case, n, element, _system, task):

@@ -1,0 +1,55 @@
+"""Rule crosscheck_opensees: a third opinion on some designs by OpenSees, where it is installed."""
+
+import csv
+from collections.abc import Sequence
+from pathlib import Path
+
+from crosscheck.comparison import KINDS, build_independent
+from crosscheck.errors import CrosscheckError, report_errors
+from crosscheck.model import read_model
+from crosscheck.opensees import list_opensees_values, open_opensees
+from crosscheck.primary import read_primary
+from crosscheck.reading import write_whole
+
+ORDER = 2.0
+"""Order in 1/n at which flat triangles settle."""
+
+
+def main(
+    model_paths: Sequence[str | Path],
+    primary_paths: Sequence[str | Path],
+    csv_path: str | Path,
+    *,
+    subdivisions: Sequence[int] = (4, 8),
+) -> None:
+    """Write one row a design, combination and quantity: the primary code's limit and OpenSees'."""
+    open_opensees()
+    if not model_paths:
+        raise CrosscheckError("designs: tags: no design has the tag 'supports' to be checked")
+    rows = []
+    for model_path, primary_path in zip(model_paths, primary_paths, strict=True):
+        model = read_model(model_path)
+        primary = read_primary(primary_path, model.compared_combinations)
+        runs = [list_opensees_values(model, n) for n in subdivisions]
+        opensees = build_independent(subdivisions, runs, ORDER)
+        for combination, values in opensees.values.items():
+            for name, meshes in values.items():
+                limit, aim = (code.limit(combination, name)[0] for code in (primary, opensees))
+                row = {"design": model.design, "combination": combination, "quantity": name}
+                row |= {"unit": KINDS[name][1], "primary": limit, "opensees": aim}
+                row["relative_difference"] = aim / limit - 1
+                row |= {f"opensees_n{n}": v for n, v in zip(subdivisions, meshes, strict=True)}
+                rows.append(row)
+    with write_whole(csv_path) as temporary, temporary.open("w", newline="") as stream:
+        writer = csv.DictWriter(stream, list(rows[0]))
+        writer.writeheader()
+        writer.writerows(rows)
+
+
+if "snakemake" in globals():
+    with report_errors():
+        main(
+            snakemake.input.models,  # noqa: F821
+            snakemake.input.primaries,  # noqa: F821
+            snakemake.output.table,  # noqa: F821
+        )
