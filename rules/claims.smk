@@ -48,6 +48,8 @@ rule sensitivity:
         **of_design("span_m"),
         layout=lambda wildcards: layout_of(wildcards.design),
         settings=of_stage("size"),
+    benchmark:
+        timing("sensitivity", "-{variant}")
     conda:
         "../envs/foldshell.yaml"
     script:
@@ -69,6 +71,8 @@ rule flat_equal:
         layout=lambda wildcards: layout_of(wildcards.design),
         subdivisions=subdivisions,
         settings=of_stage("size"),
+    benchmark:
+        timing("flat_equal")
     conda:
         "../envs/foldshell.yaml"
     script:

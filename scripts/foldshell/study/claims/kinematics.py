@@ -110,9 +110,7 @@ def judge_strengths(kinematics: Mapping[str, Any]) -> Claim:
 def _find_strengths(rows: Sequence[Mapping[str, Any]], measure: str, words: str) -> list[Finding]:
     """Return the share of the strengths that fold each mesh on each surface by each engine."""
     found = []
-    cases = dict.fromkeys(
-        (row["surface"], row.get("engine", "levenberg_marquardt").replace("_", " ")) for row in rows
-    )
+    cases = dict.fromkeys((row["surface"], row["engine"].replace("_", " ")) for row in rows)
     for kind, strengths in (
         ("quadrilaterals", "some strengths only"),
         ("triangles", "all strengths"),
@@ -121,8 +119,7 @@ def _find_strengths(rows: Sequence[Mapping[str, Any]], measure: str, words: str)
             folded = [
                 row[measure]
                 for row in rows
-                if (row["surface"], row.get("engine", "levenberg_marquardt").replace("_", " "))
-                == (surface, engine)
+                if (row["surface"], row["engine"].replace("_", " ")) == (surface, engine)
                 and row["panels"] == kind
             ]
             share = sum(folded) / len(folded)
