@@ -7,7 +7,8 @@ from typing import Any
 _UNITS = {
     "_gpa": lambda value: value * 1e6,
     "_mpa": lambda value: value * 1e3,
-    "_mm": lambda value: value / 1000,
+    # Twelve digits, as workbooks hold them: 4.2 / 1000 is not the number that 0.0042 is read as.
+    "_mm": lambda value: float(f"{value / 1000:.12g}"),
     "_deg": math.radians,
     "_kn_m2": float,
     "_kn_m3": float,

@@ -16,6 +16,7 @@ from foldshell.study.schema import CONFIG_FOLDER, iterate_leaves, validate
 from foldshell.study.settings import config_schema, make_settings, read_settings
 from foldshell.study.stages import STAGES, settings_hash, stage_parameters
 from foldshell.study.units import convert_units
+from foldshell.workbook.panels import round_thickness
 
 
 def test_config_file_holds_the_defaults_of_the_schema():
@@ -50,6 +51,13 @@ def test_classes_have_the_fields_of_the_schema():
             continue
         fields = {field.name for field in dataclasses.fields(getattr(settings, group))}
         assert fields == set(convert_units(dict.fromkeys(part["properties"], 1.0))), group
+
+
+def test_lengths_are_the_numbers_that_a_workbook_gives_back():
+    """Bounds that a workbook rounds would refuse the least thickness that they allow."""
+    for tenths in range(1, 2000):
+        length = convert_units({"least_thickness_mm": tenths / 10})["least_thickness"]
+        assert length == float(f"{tenths}e-4") == round_thickness(length)
 
 
 def test_units_inside():
