@@ -8,7 +8,7 @@ Source: Parlett, The Symmetric Eigenvalue Problem (1998), ch. 13.
 import numpy as np
 
 from crosscheck.second_order import apply_geometric, compute_geometric_matrices
-from crosscheck.system import Response, System, solve_local
+from crosscheck.system import Response, System, solve_vectors
 
 STEPS = 60
 TOLERANCE = 1e-3  # bound on the relative error of 1/f; mesh errors are ten times larger
@@ -22,7 +22,7 @@ def compute_buckling_factors(system: System, first: Response, seed: int = 0) -> 
     matrices = compute_geometric_matrices(system, first.local)
     start = np.random.default_rng(seed).normal(size=first.local.shape)
     start[:, :, 3:] = 0.0  # forces: any consistent vector will do
-    vector, image = solve_local(system, start).local, start
+    vector, image = solve_vectors(system, start), start
     basis, images = np.empty((2, STEPS, vector.shape[-1], vector[..., 0].size))
     diagonal: list[np.ndarray] = []
     beside: list[np.ndarray] = [np.sqrt(_dot(_flatten(vector), _flatten(image)))]
@@ -30,7 +30,7 @@ def compute_buckling_factors(system: System, first: Response, seed: int = 0) -> 
         basis[step] = _flatten(vector) / beside[-1][:, None]
         images[step] = _flatten(image) / beside[-1][:, None]
         image = -apply_geometric(system, matrices, vector / beside[-1])
-        vector = solve_local(system, image).local
+        vector = solve_vectors(system, image)
         diagonal.append(_dot(_flatten(vector), images[step]))
         done = slice(step + 1)
         part = np.einsum("scn,cn->sc", images[done], _flatten(vector), optimize=True)

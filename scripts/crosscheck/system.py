@@ -202,6 +202,18 @@ def solve_loads(system: System, forces: np.ndarray) -> Response:
 
 def solve_local(system: System, local: np.ndarray) -> Response:
     """Displacements under local forces (F, R, 5, c) on (u, v, w, bx, by)."""
+    full, values, border = _solve_facets(system, local)
+    displacement = np.einsum("fij,fric->frjc", system.grid.axes, full[:, :, :3], optimize=True)
+    return Response(full, displacement, _sum_reactions(system, values, border))
+
+
+def solve_vectors(system: System, local: np.ndarray) -> np.ndarray:
+    """Local displacements (F, R, 5, c) alone, as `solve_local` has them."""
+    return _solve_facets(system, local)[0]
+
+
+def _solve_facets(system: System, local: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Values at all facet nodes, those on the outline, and the loads condensed onto it."""
     grid, outline = system.grid, system.grid.mesh.reference.outline
     count, places, _, cases = local.shape
     membrane = reduce_load(system.membrane, local[:, :, :2].reshape(count, -1, cases))
@@ -215,8 +227,7 @@ def solve_local(system: System, local: np.ndarray) -> Response:
         recover_facets(system.plate, plate, values[:, :, 2:].reshape(count, -1, cases)),
         places,
     )
-    displacement = np.einsum("fij,fric->frjc", grid.axes, full[:, :, :3], optimize=True)
-    return Response(full, displacement, _sum_reactions(system, values, border))
+    return full, values, border
 
 
 def _join(membrane: np.ndarray, plate: np.ndarray, nodes: int) -> np.ndarray:

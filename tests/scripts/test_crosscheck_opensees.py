@@ -51,8 +51,10 @@ def test_missing_opensees_is_one_sentence(monkeypatch, tmp_path):
 
 
 def test_opensees_agrees_on_a_small_roof(tmp_path, model):
-    """Flat triangles, 8 and 16 an edge, extrapolated with order 2: within 3 %, measured 1.5 %, which
-    is the shear deformation that these triangles have and the thin limit has not."""
+    """Flat triangles, 8 and 16 an edge, extrapolated with order 2: within 3 % (measured 1.5 %).
+
+    They have the shear deformation that the thin limit has not.
+    """
     pytest.importorskip("openseespy.opensees", exc_type=ImportError)
     runs = [list_values(analyse_model(model, m)) for m in (2, 3)]
     values = {c: {k: [run[c][k] for run in runs] for k in runs[0][c]} for c in runs[0]}
