@@ -32,8 +32,8 @@ NOT_EXTRAPOLATED = ("utilization_p99",)
 mesh stands, and what extrapolation would add is its mesh error."""
 
 TOLERANCES = {
-    "displacement": 0.05,
-    "work": 0.05,
+    "displacement": 0.04,
+    "work": 0.04,
     "utilization_p99": 0.08,
     "utilization_panel_mean": 0.08,
     "buckling_factor": 0.08,

@@ -77,7 +77,7 @@ def test_tolerances_can_be_set_and_have_defaults():
     assert not compare(*codes, {})["pass"]
     assert compare(*codes, {"work": 0.1})["pass"]
     assert compare(*codes, {"work": 0.1})["quantities"]["S2 work_knm"]["tolerance"] == 0.1
-    assert TOLERANCES["work"] == 0.05
+    assert TOLERANCES["work"] == 0.04
 
 
 @pytest.mark.parametrize(
