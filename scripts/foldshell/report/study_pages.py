@@ -50,7 +50,7 @@ def write_summary_page(path: str | Path) -> str:
     body = "\n".join(_write_row(row, columns) for row in rows)
     lead = (
         f"{words}: {len(rows)} in all. The independent code agrees within its tolerances on "
-        f"{checked}. A click on a heading sorts; the name of a design leads to its page."
+        f"{checked}. A click on a heading sorts; outside the report names lead to pages."
     )
     table = (
         f'<div class="scroll"><table id="summary"><thead><tr>{head}</tr></thead>'
@@ -75,8 +75,9 @@ def _write_row(row: Mapping[str, str], columns: Mapping[str, tuple[str, float]])
 
 
 def write_markdown_page(title: str, text: str) -> str:
-    """Return the page of a Markdown text."""
-    return write_study_page(title, render_markdown(text))
+    """Return the page of a Markdown text, whose first heading gives way to the title."""
+    first, _, rest = text.partition("\n")
+    return write_study_page(title, render_markdown(rest if first.startswith("# ") else text))
 
 
 def write_settings_page(
