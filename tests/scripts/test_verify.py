@@ -110,6 +110,15 @@ def test_repair_removes_what_was_made_from_a_fault_and_nothing_else(study):
     assert left == ["00/a.json", "00/thickness.xlsx"]
 
 
+def test_repair_takes_no_other_file_for_an_edited_workbook(study):
+    """The record beside a workbook holds the hash of the workbook alone."""
+    book = study / f"{HOME}/01/thickness.xlsx"
+    record_written(book, book.with_name("written.json"))
+    (study / f"{HOME}/00/a.json").unlink()
+    verify.main(study, repair=True)
+    assert not list(study.rglob("edited-*"))
+
+
 def test_left_over_iterations_do_not_count(study):
     records = read_records(study / ".snakemake/metadata")
     paths = {record.path for record in keep_current(records, "results")}

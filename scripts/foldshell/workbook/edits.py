@@ -5,6 +5,7 @@ from pathlib import Path
 
 from foldshell.study.files import atomic_path, hash_file, read_json, write_json
 
+WORKBOOK = "thickness.xlsx"
 RECORD = "written.json"
 """Beside each thickness.xlsx: the hash of the bytes that the workflow wrote."""
 
@@ -15,8 +16,11 @@ def record_written(workbook: str | Path, record: str | Path) -> None:
 
 
 def is_edited(workbook: str | Path) -> bool:
-    """Tell whether a workbook differs from what the workflow wrote; False without a record."""
+    """Tell whether a workbook differs from what the workflow wrote; False without a record, and
+    for other files beside it."""
     workbook = Path(workbook)
+    if workbook.name != WORKBOOK:
+        return False
     try:
         recorded = read_json(workbook.parent / RECORD)["sha256"]
     except (OSError, ValueError, KeyError, TypeError):
