@@ -42,7 +42,9 @@ rule page:
         comparison=rules.crosscheck.output.comparison,
         pictures=[rules.draw.output[name] for name in PICTURES],
         library=library("page"),
-        assets=assets("page.css", "stage.html", "viewer.js"),
+        assets=assets(
+            "page.css", "stage.html", "data.js", "renderer.js", "camera.js", "viewer.js"
+        ),
     output:
         page=report(
             f"{RESULTS}/{{design}}/page.html",

@@ -24,6 +24,7 @@ from foldshell.report.sections import (
 from foldshell.report.view import View
 
 FOLDER = Path(__file__).parent
+SCRIPTS = ("data.js", "renderer.js", "camera.js", "viewer.js")
 SIZE_MAX = 1_400_000
 """Bytes: a browser shows larger pages blank inside Snakemake's report (2 MB as a data URI)."""
 PICTURE_WIDTH = 560
@@ -87,7 +88,7 @@ downward, tension is positive.</footer>
 <script type="application/json" id="facts">{facts}</script>
 <script type="text/plain" id="arrays">{packed}</script>
 <script>
-{_read("viewer.js")}
+{"".join(map(_read, SCRIPTS))}
 </script>"""
     return make_page(name, _read("page.css"), body)
 
