@@ -55,3 +55,13 @@ def _candidate_pairs(vertices: np.ndarray, facets: np.ndarray) -> np.ndarray:
     first, second = pairs.T
     overlap = ((low[first] <= high[second]) & (low[second] <= high[first])).all(axis=1)
     return pairs[overlap]
+
+
+def find_piercing(vertices: np.ndarray, facets: np.ndarray, sheet: int) -> np.ndarray | None:
+    """Return where (3,) m a strip passes through the sheet or another strip, None if none does.
+
+    The first `sheet` facets are those of the sheet, whose own intersections do not count.
+    """
+    pairs = find_intersections(vertices, facets)
+    pairs = pairs[(pairs >= sheet).any(axis=1)]
+    return vertices[facets[pairs[0].max()]].mean(axis=0) if len(pairs) else None

@@ -72,15 +72,3 @@ def hang_strips(
         quads[:, [[0, 1, 3], [1, 2, 3]]],
     )
     return vertices, np.concatenate([facets, halves.reshape(-1, 3)])
-
-
-def find_piercing(vertices: np.ndarray, facets: np.ndarray, sheet: int) -> np.ndarray | None:
-    """Return where (3,) m a strip passes through the sheet or another strip, None if none does.
-
-    The first `sheet` facets are those of the sheet, whose own intersections do not count.
-    """
-    from foldshell.folding.intersections import find_intersections
-
-    pairs = find_intersections(vertices, facets)
-    pairs = pairs[(pairs >= sheet).any(axis=1)]
-    return vertices[facets[pairs[0].max()]].mean(axis=0) if len(pairs) else None

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
+from foldshell.folding.intersections import find_piercing
 from foldshell.shell.analysis import AnalysisOptions, analyse_shell, build_model
 from foldshell.shell.edge_beams import (
     EdgeBeam,
     facet_edges,
-    find_piercing,
     free_edges,
     hang_strips,
     make_edge_beam,
