@@ -125,10 +125,10 @@ def times(folder: Path, pattern: str) -> dict[str, int]:
 
 
 def results(folder: Path) -> dict[str, str]:
-    """Return {relative path: SHA-256} of all results; JSON files without their seconds."""
+    """Return {relative path: SHA-256} of all results, less seconds in JSON and benchmarks."""
     found = {}
     for path in sorted((folder / "results").rglob("*")):
-        if path.is_file():
+        if path.is_file() and "benchmarks" not in path.parts:
             data = path.read_bytes()
             if path.suffix == ".json":
                 content = json.loads(data)
