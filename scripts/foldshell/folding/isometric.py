@@ -81,7 +81,7 @@ def fold_isometrically(sheet: Sheet, target: Target, settings: FoldSettings) -> 
         attempts.append(_attempt(start, target, settings, stages, least))
         if attempts[-1].distance <= CLOSE and not attempts[-1].crumpled:
             break
-    best = min(attempts, key=lambda attempt: (attempt.crumpled, attempt.distance))
+    best = min(attempts, key=lambda a: (a.solution.residual > STRAIN, a.crumpled, a.distance))
     residuals = {"constraint_residual": best.solution.residual}
     if "sector_angle_deg" in best.sheet.settings:
         residuals["start_sector_angle_deg"] = best.sheet.settings["sector_angle_deg"]
@@ -122,6 +122,12 @@ def _attempt(
         vertices, iterations = minimum.vertices, iterations + minimum.iterations
     lengths = Stretch(sheet.grid.edges, edge_lengths(sheet.flat, sheet.grid.edges), 1.0)
     projected = project_vertices([lengths], vertices)
+    if projected.residual > STRAIN:  # pulled too far to be projected: let the lengths relax alone
+        relaxed = minimise_terms(
+            [lengths], vertices, max_iterations=500, cost_tolerance=0.0, step_tolerance=1e-9
+        )
+        iterations += relaxed.iterations
+        projected = project_vertices([lengths], relaxed.vertices)
     solution = Solution(
         projected.vertices, projected.residual, iterations + projected.iterations,
         f"edge lengths kept to {projected.residual:.1e}",
