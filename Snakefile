@@ -11,17 +11,15 @@ from pathlib import Path
 from snakemake.utils import min_version
 
 min_version("9.0")
-os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-os.environ.setdefault("OMP_NUM_THREADS", "1")
-# Jobs keep the memory of temporary arrays: taking it anew costs a fifth of an analysis.
-os.environ.setdefault("MALLOC_MMAP_THRESHOLD_", str(4 * 10**9))
-os.environ.setdefault("MALLOC_TRIM_THRESHOLD_", str(4 * 10**9))
 sys.path.insert(0, str(Path(workflow.basedir) / "scripts"))
 
 from foldshell.study.config_file import read_config
+from foldshell.study.environment import prepare_environment
 from foldshell.study.errors import user_errors
 from foldshell.study.load import load_study
 from foldshell.workbook.edits import keep_all_edited
+
+prepare_environment(os.environ)
 
 
 with user_errors():

@@ -18,6 +18,7 @@ from pathlib import Path
 
 import pytest
 
+from foldshell.study.environment import KEEP_MEMORY, ONE_THREAD
 from verification.folded_cases import CASES
 
 pytestmark = pytest.mark.bench
@@ -26,9 +27,6 @@ RESULTS = HERE.parents[1] / "results" / "bench"
 FIELDS = ("task", "code", "solver", "dofs", "cpu_s", "wall_s", "rss_mb", "value", "case", "n")
 LIMIT_S = float(os.environ.get("BENCH_LIMIT_S", "600"))
 SIZES = [int(n) for n in os.environ.get("BENCH_SIZES", "2,4,6,9,12").split(",")]
-ONE_THREAD = {f"{name}_NUM_THREADS": "1" for name in ("OPENBLAS", "OMP", "MKL")}
-KEPT_MEMORY = {f"MALLOC_{name}_THRESHOLD_": str(4 * 10**9) for name in ("MMAP", "TRIM")}
-"""As the workflow has it for its jobs: freed memory is kept. It speeds up all codes alike."""
 PLAIN = "4"
 """The case whose answer differs least between codes: paraboloid, zig-zag edges, 120 mm."""
 
@@ -40,7 +38,7 @@ def run(code, element, solver, task, case, n, runs=1):
     if code == "calculix" and shutil.which("ccx") is None:
         return None
     command = [sys.executable, str(HERE / "bench_shell_run.py"), code, element, solver, task]
-    environment = os.environ | ONE_THREAD | KEPT_MEMORY
+    environment = os.environ | ONE_THREAD | KEEP_MEMORY | {"MKL_NUM_THREADS": "1"}
     rows = []
     for _ in range(runs):
         try:
