@@ -73,7 +73,6 @@ def build_mesh(
     panel: np.ndarray | None = None,
     subdivisions: int = 4,
     order: int | None = None,
-    grading: float | None = None,
 ) -> ShellMesh:
     """Cover every facet with elements that share their nodes along facet edges.
 
@@ -84,14 +83,9 @@ def build_mesh(
     panel : (F,) panel of each facet; by default each facet is its own panel
     subdivisions : n, result cells along a facet edge
     order : element order p; by default as `split_subdivisions` says
-    grading : distance of the first division from a corner, as a share of the facet edge, for
-        facets with three elements along an edge; by default the divisions are even. Stresses are
-        singular at fold vertices, where small elements help most.
     """
     splits, default_order = split_subdivisions(subdivisions)
     order = default_order if order is None else order
-    if grading is not None and splits != 3:
-        raise ValueError(f"{splits} elements along a facet edge: grading needs three")
     vertices, facets = np.asarray(vertices, float), np.asarray(facets)
     _check_facets(vertices, facets)
     size = splits * order
@@ -99,8 +93,7 @@ def build_mesh(
     numbers, pairs, pair_nodes, count = _number_nodes(len(vertices), facets, size)
     nodes = np.empty((count, 3))
     local = _element_lattice(size, order)
-    shares = lattice / size if grading is None else _graded_lattice(local, order, grading)
-    nodes[numbers] = shares @ vertices[facets]
+    nodes[numbers] = (lattice / size) @ vertices[facets]
     nodes[: len(vertices)] = vertices
     elements = numbers[:, local].reshape(-1, local.shape[1])
     edges, signs, edge_count = _number_edges(elements[:, corner_positions(order)])
@@ -181,19 +174,6 @@ def _element_lattice(n: int, p: int) -> np.ndarray:
                 corner = origin + np.array([-2 * p, p, p])
                 triangles.append(corner + local @ [[0, 0, 0], [1, -1, 0], [1, 0, -1]])
     return np.array([[position[tuple(node)] for node in tri.tolist()] for tri in triangles])
-
-
-def _graded_lattice(local: np.ndarray, order: int, grading: float) -> np.ndarray:
-    """Return barycentric shares (n, 3) of the facet's lattice with three graded parts an edge."""
-    lattice = lattice_indices(3 * order)
-    parts = lattice / order
-    divided = np.array([0.0, grading, 1 - grading, 1.0])
-    even = np.isclose(parts, 1).all(axis=1)
-    graded = np.where(even[:, None], parts / 3, np.interp(parts, range(4), divided))
-    corners = graded[local[:, corner_positions(order)]]
-    shares = np.empty((len(lattice), 3))
-    shares[local] = (lattice_indices(order) / order) @ corners
-    return shares
 
 
 def _number_edges(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, int]:

@@ -17,12 +17,11 @@ def mesh_folded_sheet(
     support: str,
     subdivisions: int,
     order: int | None = None,
-    grading: float | None = None,
     edge_beam: EdgeBeam | None = None,
 ) -> dict[str, np.ndarray]:
     """Return the arrays of `mesh.npz`: the mesh, the sheet it covers, and its supports.
 
-    See `build_mesh` for subdivisions, order and grading.
+    See `build_mesh` for subdivisions and order.
 
     Besides the fields of `ShellMesh` these are vertices (V, 3) m, facets (F, 3), facet_panel (F,),
     support_pairs (K, 2) as vertices and supported_nodes (S,). With an edge beam the strip's
@@ -37,7 +36,7 @@ def mesh_folded_sheet(
         vertices, facets = hang_strips(vertices, facets, edges, edge_beam.depth)
         fixed["fixed_thickness"] = np.full(len(edges), edge_beam.thickness)
     facet_panel = np.arange(len(facets)) // 2
-    mesh = build_mesh(vertices, facets, facet_panel, subdivisions, order, grading)
+    mesh = build_mesh(vertices, facets, facet_panel, subdivisions, order)
     return {
         **{field.name: np.asarray(getattr(mesh, field.name)) for field in fields(mesh)},
         "vertices": vertices,

@@ -110,26 +110,3 @@ def test_rotation_of_the_vertices_rotates_the_mesh():
     plain, turned = build_mesh(SQUARE, TWO), build_mesh(SQUARE @ turn, TWO)
     assert turned.nodes == pytest.approx(plain.nodes @ turn, abs=1e-14)
     assert (turned.elements == plain.elements).all()
-
-
-def test_grading_moves_divisions_towards_the_corners_and_keeps_edges_shared():
-    """Three parts an edge at 0, g, 1 - g, 1; both facets of the square agree on their edge."""
-    mesh = build_mesh(SQUARE, TWO, subdivisions=12, order=1, grading=0.1)
-    shared = mesh.nodes[edge_polyline_nodes(mesh, np.array([[0, 2]]))]
-    assert np.sort(shared[:, 0]) == pytest.approx([0, 0.1, 0.9, 1])
-    assert shared[:, 1] == pytest.approx(shared[:, 0])
-    corner = mesh.nodes[mesh.corners]
-    area = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])[:, 2] / 2
-    assert area.sum() == pytest.approx(1.0)
-    assert area.min() == pytest.approx(0.01 / 2)
-
-
-def test_even_grading_is_the_plain_mesh():
-    plain = build_mesh(SQUARE, TWO, subdivisions=12, order=3)
-    graded = build_mesh(SQUARE, TWO, subdivisions=12, order=3, grading=1 / 3)
-    assert graded.nodes == pytest.approx(plain.nodes, abs=1e-14)
-
-
-def test_grading_needs_three_parts():
-    with pytest.raises(ValueError, match="grading needs three"):
-        build_mesh(SQUARE, TWO, subdivisions=4, grading=0.1)
