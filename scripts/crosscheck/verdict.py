@@ -17,14 +17,24 @@ def compare_codes(
     stability: bool,
     shear_factor: float,
 ) -> dict[str, Any]:
-    """The comparison; failed, with the reason, where only this code finds a mechanism."""
+    """The comparison; failed, with the reason, where only this code finds a mechanism.
+
+    Codes that differ are compared once more after the coarsest of these meshes has made way for a
+    finer one: buckling modes of slender panels are still far from their limit on the meshes that
+    suffice elsewhere, while what differs for another reason differs on every mesh.
+    """
     buckling = stability and "buckling_factor" in primary.names
     second = stability and any(SECOND_ORDER in name for name in primary.values)
     try:
         runs = [analyse_mesh(model, m, shear_factor, buckling, second) for m in meshes]
+        result = compare(primary, build_independent(meshes, runs), tolerance)
+        if not result["pass"]:
+            meshes = [*meshes[1:], meshes[-1] + 1]
+            runs = [*runs[1:], analyse_mesh(model, meshes[-1], shear_factor, buckling, second)]
+            result = compare(primary, build_independent(meshes, runs), tolerance)
     except MechanismError as error:
         return leave_out(False, str(error))
-    return compare(primary, build_independent(meshes, runs), tolerance)
+    return result
 
 
 def leave_out(passed: bool | None, reason: str) -> dict[str, Any]:

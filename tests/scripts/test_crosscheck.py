@@ -73,6 +73,20 @@ def test_agreeing_codes_pass(main, tmp_path, primary_values):
     ]
 
 
+def test_codes_that_differ_are_compared_on_a_finer_mesh(main, tmp_path, primary_values):
+    """On one element a block the work is off by more than the tolerance, on two by less."""
+    paths = write_inputs(tmp_path, primary_values)
+    model = read_model(paths[0])
+    found = [analyse_mesh(model, m, SHEAR_FACTOR, False, False)["S2"]["work_knm"] for m in (1, 2)]
+    main(*paths, subdivisions=[1, 3])
+    settled = json.loads(paths[2].read_text())
+    assert settled["independent_subdivisions"] == [1, 3]
+    limit = settled["quantities"]["S2 work_knm"]["primary"]
+    far, near = (abs(value / limit - 1) for value in found)
+    main(*paths, subdivisions=[1], tolerance={"work": (far * near) ** 0.5})
+    assert json.loads(paths[2].read_text())["independent_subdivisions"] == [2]
+
+
 def test_a_mechanism_is_not_compared_and_says_why(main, tmp_path):
     """The primary code has no displacements to compare: neither passed nor failed."""
     primary = {"subdivisions": [4, 12], "combinations": {}, "reason": "moves most at node 7"}
