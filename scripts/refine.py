@@ -7,7 +7,7 @@ from typing import Any
 from foldshell.shell.edge_beams import make_edge_beam
 from foldshell.shell.loads import Loads
 from foldshell.shell.material import Material
-from foldshell.shell.mesh_study import estimate_errors, study_mesh
+from foldshell.shell.mesh_study import estimate_errors, find_largest_errors, study_mesh
 from foldshell.study.errors import user_errors
 from foldshell.study.files import read_arrays, write_json
 
@@ -41,8 +41,7 @@ def main(
         make_edge_beam(*edge_beam),
     )
     errors = estimate_errors(study)
-    found = [error for values in errors.values() for error in values.values()]
-    report = {"mesh_error": max(found, default=None), "subdivisions": subdivisions}
+    report = find_largest_errors(errors) | {"subdivisions": subdivisions}
     write_json(study_path, report | {"errors": errors, "study": study})
     write_json(primary_path, study)
 

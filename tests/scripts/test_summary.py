@@ -94,14 +94,14 @@ def test_columns_begin_as_in_the_contract():
 def test_a_converged_design(tmp_path):
     folder = tmp_path / "results/a"
     write_results(folder)
-    write(folder / "mesh_study.json", {"mesh_error": 0.021})
+    write(folder / "mesh_study.json", {"mesh_error": 0.021, "buckling_mesh_error": 0.17})
     write(folder / "crosscheck/comparison.json", {"pass": True, "quantities": {}})
     (row,) = run(tmp_path, ["a"])
     assert row["state"] == "converged" and row["iterations"] == "3"
     assert float(row["volume_m3"]) == 88.0
     assert float(row["volume_per_area_m"]) == 88.0 / 1100.0
     assert float(row["buckling_factor_min"]) == 21.5
-    assert float(row["mesh_error"]) == 0.021
+    assert float(row["mesh_error"]) == 0.021 and float(row["buckling_mesh_error"]) == 0.17
     assert row["crosscheck"] == "pass" and row["mesh_subdivisions"] == "4"
     assert row["settings_hash"] == settings_hash(SETTINGS)
     assert row["tags"] == "table1,supports" and row["span_m"] == "28.0"

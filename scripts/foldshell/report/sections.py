@@ -149,7 +149,7 @@ def write_classes(classes: Mapping[str, Any]) -> str:
 
 
 def write_mesh_error(study: Mapping[str, Any]) -> str:
-    """Return how far each headline number is from that of a graded, finer mesh."""
+    """Return how far each headline number is from that of a finer mesh."""
     errors = study.get("errors") or {}
     if not errors:
         return f"<p>Not measured: {escape(study.get('reason') or 'no results')}</p>"

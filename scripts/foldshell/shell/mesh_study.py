@@ -53,6 +53,10 @@ QUANTITIES = (
 )
 
 
+FACTOR = "buckling_factor"
+"""Its mesh error is reported apart: modes inside slender panels settle later than all else."""
+
+
 class MechanismError(ValueError):
     """A state without displacements, and where it gives way."""
 
@@ -144,9 +148,19 @@ def estimate_errors(study: Mapping[str, Any]) -> dict[str, dict[str, float]]:
                 values[quantity][0],
                 extrapolate(values[quantity][0], values[quantity][1], fine / coarse),
             )
-            for quantity in QUANTITIES
+            for quantity in (*QUANTITIES, FACTOR)
+            if quantity in values
         }
         for name, values in study["combinations"].items()
+    }
+
+
+def find_largest_errors(errors: Mapping[str, Mapping[str, float]]) -> dict[str, float | None]:
+    """Return `mesh_error`, the largest but for buckling, and `buckling_mesh_error`."""
+    found = [(name == FACTOR, error) for one in errors.values() for name, error in one.items()]
+    return {
+        key: max((error for buckles, error in found if buckles == wanted), default=None)
+        for key, wanted in (("mesh_error", False), ("buckling_mesh_error", True))
     }
 
 

@@ -32,6 +32,7 @@ SUMMARY_KEYS = (
     "crosscheck",
     "settings_hash",
     "reason",
+    "buckling_mesh_error",
     "edge_beam_depth_m",
     "edge_beam_thickness_m",
     "edge_beam_volume_m3",
@@ -66,7 +67,8 @@ def make_summary_row(
     row["volume_per_area_m"] = _divide(last.get("volume_m3"), last.get("area_m2"))
     row["buckling_factor_min"] = find_least_factor(last)
     row["state"], row["reason"] = _judge(quality, last, problems)
-    row["mesh_error"] = _read_optional(folder / "mesh_study.json").get("mesh_error")
+    study = _read_optional(folder / "mesh_study.json")
+    row |= {key: study.get(key) for key in ("mesh_error", "buckling_mesh_error")}
     row["crosscheck"] = _say_crosscheck(_read_optional(folder / "crosscheck/comparison.json"))
     row["settings_hash"] = settings_hash
     return row

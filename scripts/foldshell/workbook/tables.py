@@ -64,7 +64,7 @@ def make_column(key: str) -> Column:
         return Column(key, "", "text", _TEXTS.get(key, 11.0))
     if key in _INTEGERS:
         return Column(key, "-", "integer", width)
-    if key == "mesh_error":
+    if key in ("mesh_error", "buckling_mesh_error"):
         return Column(key, "-", "percent", width)
     if key in _CHANGES:
         return Column(key, "-", "change", width)
