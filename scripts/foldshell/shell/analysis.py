@@ -36,7 +36,7 @@ class AnalysisOptions:
     """
 
     second_order: bool = True
-    second_order_tolerance: float = 1e-8
+    second_order_tolerance: float = 1e-6
     second_order_iterations_max: int = 60
     solver: str = "cholmod"
     imperfection: float = 0.0
