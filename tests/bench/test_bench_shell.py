@@ -129,11 +129,11 @@ def draw_error(rows, path):
     figure, axes = pyplot.subplots(2, 3, figsize=(12, 7), sharey=True, layout="constrained")
     for axis, case in zip(axes.flat, CASES, strict=True):
         own = [row for row in rows if row["case"] == str(case)]
-        for code in sorted({row["code"] for row in own}):
+        for code, marker in zip(sorted({row["code"] for row in own}), "v^<osD", strict=False):
             line = sorted((r["cpu_s"], abs(r["error"]) * 100) for r in own if r["code"] == code)
-            axis.loglog(*zip(*line, strict=True), "o-", label=code)
+            axis.loglog(*zip(*line, strict=True), f"{marker}-", label=code)
         axis.axhline(5, color="0.6", linewidth=0.8)
         axis.set(title=str(case), xlabel="CPU time [s]", ylabel="error of displacement [%]")
-    axes.flat[0].legend(fontsize=8)
-    figure.savefig(path, dpi=130)
+    figure.legend(*axes.flat[0].get_legend_handles_labels(), loc="outside lower center", ncols=6)
+    figure.savefig(path, dpi=100)
     pyplot.close(figure)
