@@ -159,6 +159,8 @@ class _Subspace:
             vectors -= overlap @ basis
             forces -= overlap @ own_forces
             vectors, forces = _orthonormalise(vectors, forces)
+        if not len(vectors):
+            return solved
         new = old + len(vectors)
         if new > self._room.shape[1]:
             self._room = np.concatenate([self._room, np.empty_like(self._room)], axis=1)

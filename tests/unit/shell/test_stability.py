@@ -360,3 +360,15 @@ def test_few_combinations_follow_more_modes_each():
     for column, (name, factors) in enumerate(COMBINATIONS.items()):
         alone = analyse_shell(model, thickness, CONCRETE, Loads(), {name: factors})
         assert alone.buckling.factors[0] == pytest.approx(together[column], rel=1e-4)
+
+
+def test_a_search_that_has_used_up_all_directions_ends():
+    """K = I and K_g = -diag(1, 2, 3): the space is full after the first vectors; factor 1 / 3."""
+    found = find_buckling_factors(
+        lambda forces: forces,
+        lambda vectors: -(np.array([1.0, 2.0, 3.0])[:, None] * vectors)[None],
+        np.ones((1, 1)),
+        3,
+    )
+    assert found.factors[0] == pytest.approx(1 / 3)
+    assert found.converged
