@@ -141,7 +141,7 @@ def patch_rows() -> list[list[str]]:
     rows = []
     for name, error, tried in checks:
         worst = max(error(order, seed) for order in tried for seed in range(3))
-        verdict = "below 1e-9" if worst < 1e-9 else f"{worst:.0e}"
+        verdict = "below 1e-10" if worst < 1e-10 else f"{worst:.0e}"
         rows.append([name, "constant strain or curvature", "0", ", ".join(map(str, tried)),
                      f"largest relative error {verdict}", "-"])  # fmt: skip
     modes = sorted({zero_modes(order, kind) for order in (2, 3, 5) for kind in ("flat", "folded")})

@@ -156,9 +156,13 @@ def orthonormal_basis(degree: int, points: np.ndarray) -> np.ndarray:
 
 def lagrange_basis(order: int, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Return values (q, n), first (2, q, n) and second (3, q, n; rr, ss, rs) derivatives."""
-    to_nodal = np.linalg.inv(_monomials(order, lattice_points(order), 0, 0))
+    points, lattice = points.astype(np.longdouble), lattice_points(order).astype(np.longdouble)
+    to_monomials = _monomials(order, lattice, 0, 0)
+    # monomials are ill-conditioned: Newton's step brings the inverse to extended precision
+    to_nodal = np.linalg.inv(to_monomials.astype(float)).astype(np.longdouble)
+    to_nodal = to_nodal @ (2 * np.eye(len(to_nodal)) - to_monomials @ to_nodal)
     table = {
-        (i, j): _monomials(order, points, i, j) @ to_nodal
+        (i, j): (_monomials(order, points, i, j) @ to_nodal).astype(float)
         for i, j in ((0, 0), (1, 0), (0, 1), (2, 0), (0, 2), (1, 1))
     }
     return (
