@@ -158,7 +158,7 @@ def test_buckling_mode_is_that_of_the_least_factor(tmp_path):
     mode = subject.state.buckling_mode("S2")
     assert np.linalg.norm(mode, axis=1).max() == pytest.approx(1)
     vertices = np.unique(subject.state.shell["support_pairs"])
-    assert np.abs(mode[vertices]).max() == 0
+    assert np.abs(mode[vertices]).max() < 1e-12  # interpolated from the nodes: rounding is left
 
 
 def test_long_words_are_broken_not_shrunk():
