@@ -5,13 +5,13 @@ import json
 from snakemake.exceptions import IncompleteCheckpointException
 
 
-def before(name):
-    """Return a function of the wildcards: a file of the iteration before, none for the first."""
+def before(names):
+    """Return a function of the wildcards: files of the iteration before, none for the first."""
 
     def find(wildcards):
         number = int(wildcards.iteration) - 1
         folder = f"{RESULTS}/{wildcards.design}/sizing/{number:02d}"
-        return [f"{folder}/{file}" for file in name] if number >= 0 else []
+        return [f"{folder}/{name}" for name in names] if number >= 0 else []
 
     return find
 

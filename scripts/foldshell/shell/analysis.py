@@ -12,11 +12,7 @@ from foldshell.shell.assembly import (
     translation_dofs,
 )
 from foldshell.shell.buckling import BucklingResult, find_buckling_factors
-from foldshell.shell.geometric import (
-    apply_geometric,
-    apply_geometric_matrices,
-    geometric_matrices,
-)
+from foldshell.shell.geometric import apply_geometric, make_geometric_products
 from foldshell.shell.linear_solver import Factor, NotPositiveDefiniteError, factorise
 from foldshell.shell.loads import Loads, combination_matrix, nodal_forces, surface_loads
 from foldshell.shell.material import Material
@@ -239,31 +235,15 @@ class _Solution:
         rank = int((weights > 1e-12 * weights[0]).sum())
         factors = weights[:rank, None] * independent[:rank]
         forces = self.forces(linear_cases @ mixing[:, :rank])
-        operators, dofs = self._model.operators, self._dofs
-        matrices = geometric_matrices(operators, forces)
-        nodes = len(self._model.mesh.nodes)
-        moving = np.flatnonzero(dofs < 3 * nodes)
-        translations = dofs[moving]
-
-        def apply_cases(vectors: np.ndarray) -> np.ndarray:
-            # fields as rows: products and sums of long rows are several times as fast
-            count = vectors.shape[1]
-            full = np.zeros((count, 3 * nodes))
-            full[:, translations] = vectors.T[:, moving]
-            moved = full.reshape(count, nodes, 3).transpose(0, 2, 1).reshape(-1, nodes)
-            pushed = apply_geometric_matrices(operators, matrices, moved)
-            pushed = pushed.reshape(-1, 3, nodes).transpose(0, 2, 1).reshape(-1, 3 * nodes)
-            result = np.zeros((len(matrices) * count, len(vectors)))
-            result[:, moving] = pushed[:, translations]
-            return result.reshape(len(matrices), count, -1).transpose(0, 2, 1)
-
+        dofs = self._dofs
+        multiply = make_geometric_products(self._model.operators, forces, dofs)
         # modes are kept in ascending order of freedoms, the factor works in its own
         place = np.argsort(dofs)
         if start is not None:
             own = np.empty_like(start, dtype=float)
             own[place] = start
             start = own
-        found = find_buckling_factors(self._factor.solve, apply_cases, factors, len(dofs), start)
+        found = find_buckling_factors(self._factor.solve, multiply, factors, len(dofs), start)
         return replace(found, modes=found.modes[place])
 
     def second_order(

@@ -19,7 +19,7 @@ FOLLOWED = 8
 """Least number of modes that are followed in all: few combinations follow more modes each."""
 
 NEIGHBOUR_TOLERANCE = 0.2
-"""Change at which the second mode is known well enough."""
+"""Change at which all but the first mode are known well enough."""
 
 LARGEST_FACTOR = 1e8
 """A larger factor is taken for none at all."""

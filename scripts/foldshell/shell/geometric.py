@@ -6,12 +6,13 @@ Slopes are taken along the two directions of the reference triangle, the same fo
 and N is pulled back to them.
 """
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
-from foldshell.shell.nodal import sum_at_nodes
+from foldshell.shell.nodal import gather_forces, sum_at_nodes
 from foldshell.shell.reference import orthonormal_basis, reference_triangle, triangle_quadrature
 from foldshell.shell.stiffness import ShellOperators
 
@@ -73,17 +74,46 @@ def apply_geometric(
         flow[..., 1, :] += rs * slope[..., 0, :]
         pushed = flow.reshape(-1, 2 * points) @ tables.slope
         element[:, :, part] = pushed.reshape(3, columns, size, nodes)
-    total = np.zeros((mesh.dof_count, columns))
-    summed = sum_at_nodes(mesh.elements, element.reshape(3 * columns, -1), len(mesh.nodes))
-    total[: 3 * len(mesh.nodes)] = summed.T.reshape(-1, columns)
-    return total
+    return gather_forces(mesh, element)
 
 
-def geometric_matrices(operators: ShellOperators, force: np.ndarray) -> np.ndarray:
-    """Return K_g of each column of N (E, 3, m, c) element by element, (c, E, n, n).
+def make_geometric_products(
+    operators: ShellOperators, force: np.ndarray, dofs: np.ndarray
+) -> Callable[[np.ndarray], np.ndarray]:
+    """Return what maps vectors (size, k) to K_g of each column of N times them, (c, size, k).
 
-    They act on x, y and z alike.
+    The same as `apply_geometric` for forces that stay while vectors change: K_g is kept as one
+    matrix an element and case, which acts on x, y and z alike.
+
+    Parameters
+    ----------
+    force : (E, 3, m, c) kN/m
+    dofs : (size,) degree of freedom of each row of the vectors; all others are zero
     """
+    mesh, matrices = operators.mesh, _element_matrices(operators, force)
+    nodes, cases = len(mesh.nodes), len(matrices)
+    moving = np.flatnonzero(dofs < 3 * nodes)
+    translations = dofs[moving]
+
+    def multiply(vectors: np.ndarray) -> np.ndarray:
+        # fields as rows: products and sums of long rows are several times as fast
+        count = vectors.shape[1]
+        full = np.zeros((count, 3 * nodes))
+        full[:, translations] = vectors.T[:, moving]
+        moved = full.reshape(count, nodes, 3).transpose(0, 2, 1).reshape(3 * count, nodes)
+        local = moved[:, mesh.elements].transpose(1, 0, 2)
+        result = np.zeros((cases, count, len(vectors)))
+        for case, matrix in enumerate(matrices):
+            pushed = sum_at_nodes(mesh, np.matmul(local, matrix).transpose(1, 0, 2))
+            pushed = pushed.reshape(count, 3, nodes).transpose(0, 2, 1).reshape(count, 3 * nodes)
+            result[case][:, moving] = pushed[:, translations]
+        return result.transpose(0, 2, 1)
+
+    return multiply
+
+
+def _element_matrices(operators: ShellOperators, force: np.ndarray) -> np.ndarray:
+    """Return K_g of each column of N element by element, (c, E, n, n)."""
     nodes = operators.mesh.elements.shape[1]
     tables = geometric_tables(operators.mesh.order)
     i, j = np.divmod(np.arange(nodes**2), nodes)
@@ -91,19 +121,6 @@ def geometric_matrices(operators: ShellOperators, force: np.ndarray) -> np.ndarr
     square = tables.product[:, i * (i + 1) // 2 + j]
     pulled = pull_back(operators, force).transpose(3, 0, 1, 2)
     return (pulled.reshape(-1, len(square)) @ square).reshape(*pulled.shape[:2], nodes, nodes)
-
-
-def apply_geometric_matrices(
-    operators: ShellOperators, matrices: np.ndarray, moved: np.ndarray
-) -> np.ndarray:
-    """Return each K_g (c, E, n, n) times fields given as rows (r, N), (c, r, N)."""
-    elements, count = operators.mesh.elements, len(operators.mesh.nodes)
-    local = moved[:, elements].transpose(1, 0, 2)
-    result = np.empty((len(matrices), *moved.shape))
-    for case, matrix in enumerate(matrices):
-        pushed = np.matmul(local, matrix).transpose(1, 0, 2)
-        result[case] = sum_at_nodes(elements, pushed, count)
-    return result
 
 
 def pull_back(operators: ShellOperators, force: np.ndarray) -> np.ndarray:

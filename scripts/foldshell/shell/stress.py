@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foldshell.shell.nodal import sum_at_nodes
+from foldshell.shell.nodal import gather_forces
 from foldshell.shell.reference import orthonormal_basis, reference_triangle
 from foldshell.shell.stiffness import ShellOperators
 
@@ -84,19 +84,9 @@ def internal_forces(operators: ShellOperators, resultants: StressResultants) -> 
     push = push.reshape(count, nodes, 3, columns) + local[:, :nodes, None] * normal
     turning = local[:, nodes:].reshape(-1, columns)
     numbers = operators.dofs[:, 3 * nodes :].ravel()
-    total = gather_nodes(operators, push)
+    total = gather_forces(mesh, push.transpose(2, 3, 0, 1))
     for column in range(columns):
         total[:, column] += np.bincount(numbers, turning[:, column], mesh.dof_count)
-    return total
-
-
-def gather_nodes(operators: ShellOperators, element: np.ndarray) -> np.ndarray:
-    """Sum element node forces (E, n, 3, c) into global ones (dofs, c)."""
-    columns, mesh = element.shape[3], operators.mesh
-    total = np.zeros((mesh.dof_count, columns))
-    rows = element.transpose(2, 3, 0, 1).reshape(3 * columns, -1)
-    summed = sum_at_nodes(mesh.elements, rows, len(mesh.nodes))
-    total[: 3 * len(mesh.nodes)] = summed.T.reshape(-1, columns)
     return total
 
 

@@ -10,11 +10,7 @@ from foldshell.shell.analysis import AnalysisOptions, analyse_shell, build_model
 from foldshell.shell.assembly import assemble_stiffness, find_pattern, translation_dofs
 from foldshell.shell.buckling import find_buckling_factors
 from foldshell.shell.cholmod_library import open_library
-from foldshell.shell.geometric import (
-    apply_geometric,
-    apply_geometric_matrices,
-    geometric_matrices,
-)
+from foldshell.shell.geometric import apply_geometric, make_geometric_products
 from foldshell.shell.linear_solver import (
     CholmodFactor,
     CvxoptFactor,
@@ -55,20 +51,17 @@ def arch_model(subdivisions: int = 2):
     return build_model(mesh, held, 0.2)
 
 
-def test_applied_and_assembled_geometric_stiffness_agree():
+def test_applied_and_kept_geometric_stiffness_agree():
     mesh = folded_strip(3, 4)
     operators = build_operators(mesh, 0.2)
     rng = np.random.default_rng(2)
     force = rng.standard_normal((len(mesh.elements), 3, 15, 2))
     displacement = rng.standard_normal((mesh.dof_count, 2))
     applied = apply_geometric(operators, force, displacement)
-    count = 3 * len(mesh.nodes)
-    matrices = geometric_matrices(operators, force)
+    dofs = np.random.default_rng(3).permutation(mesh.dof_count)
+    products = make_geometric_products(operators, force, dofs)(displacement[dofs])
     for case in range(2):
-        moved = displacement[:count, case].reshape(-1, 3).T
-        found = apply_geometric_matrices(operators, matrices, moved)[case]
-        assert applied[:count, case].reshape(-1, 3) == pytest.approx(found.T, abs=1e-11)
-    assert (applied[count:] == 0).all()
+        assert products[case][:, case] == pytest.approx(applied[dofs, case], abs=1e-11)
 
 
 @pytest.mark.parametrize("order", [2, 3, 5])
@@ -352,14 +345,20 @@ def test_supports_on_one_line_are_refused():
         build_model(mesh, mesh.pair_nodes[0], 0.2)
 
 
-def test_few_combinations_follow_more_modes_each():
-    """Each alone gives what all together give: 1e-4, the square of the mode change."""
-    model = arch_model()
-    thickness = np.full(64, 0.05)
-    together = analyse_shell(model, thickness, CONCRETE, Loads(), COMBINATIONS).buckling.factors
-    for column, (name, factors) in enumerate(COMBINATIONS.items()):
-        alone = analyse_shell(model, thickness, CONCRETE, Loads(), {name: factors})
-        assert alone.buckling.factors[0] == pytest.approx(together[column], rel=1e-4)
+def test_a_search_for_one_combination_does_not_settle_on_a_neighbour():
+    """K = I and K_g diagonal, the least factor 1 with four others within 8 %. Following two modes
+    only, as for many combinations, ends at one of these (seed 6)."""
+    for seed in (3, 6):
+        rng = np.random.default_rng(seed)
+        mu = np.sort(rng.uniform(0, 0.5, 2000))[::-1]
+        mu = np.concatenate([[1.0], np.linspace(0.98, 0.93, 4), mu[5:]])[rng.permutation(2000)]
+        found = find_buckling_factors(
+            lambda forces: forces,
+            lambda vectors, mu=mu: -(mu[:, None] * vectors)[None],
+            np.ones((1, 1)),
+            2000,
+        )
+        assert found.factors[0] == pytest.approx(1, rel=1e-4)
 
 
 def test_a_search_that_has_used_up_all_directions_ends():
