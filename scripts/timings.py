@@ -1,18 +1,15 @@
 """Rule timings: what the jobs of each rule took."""
 
-import csv
 from pathlib import Path
 
 from foldshell.study.files import atomic_path
-from foldshell.study.timings import COLUMNS, collect_timings
+from foldshell.study.timings import collect_timings
 
 
 def main(folder: str | Path, csv_path: str | Path) -> None:
     """Write timings.csv, a row a rule; times differ from run to run, results do not."""
-    with atomic_path(csv_path) as path, path.open("w", newline="", encoding="utf-8") as stream:
-        writer = csv.DictWriter(stream, COLUMNS)
-        writer.writeheader()
-        writer.writerows(collect_timings(folder))
+    with atomic_path(csv_path) as temporary:
+        collect_timings(folder).to_csv(temporary, index=False)
 
 
 if "snakemake" in globals():

@@ -1,56 +1,36 @@
 """Time and memory of the jobs of each rule, from the files of Snakemake's `benchmark`.
 
-Wall time is exact; memory is polled, and CPU time too, which leaves it out for jobs below a second:
-it is not reported.
+Wall time is exact. Memory is polled, as CPU time is, which is 0 for jobs below a second: CPU time
+is not reported, memory is that of the largest job.
 """
 
-import csv
-from collections.abc import Iterable
 from pathlib import Path
 
-COLUMNS = ("rule", "jobs", "wall_s", "wall_mean_s", "wall_max_s", "rss_max_mb")
-"""Columns of timings.csv: sums over the jobs of a rule, then mean and largest of one job."""
+import pandas as pd
 
 
-def collect_timings(folder: str | Path) -> list[dict[str, object]]:
-    """Return a row a rule and one for all, the costliest rule first.
+def collect_timings(folder: str | Path) -> pd.DataFrame:
+    """Return a row a rule, the longest first, and one for all: jobs, wall_s, wall_mean_s,
+    wall_max_s, rss_max_mb.
 
     Parameters
     ----------
     folder : holds `<rule>/<job>.tsv`
     """
-    names = sorted(path.name for path in Path(folder).iterdir() if path.is_dir())
-    rows = [_sum_jobs(name, read_jobs(Path(folder, name).glob("*.tsv"))) for name in names]
-    rows.sort(key=lambda row: -row["wall_s"])
-    everything = read_jobs(Path(folder).glob("*/*.tsv"))
-    return [*rows, _sum_jobs("all", everything)]
+    jobs = pd.concat(
+        pd.read_csv(path, sep="\t", na_values="-").assign(rule=path.parent.name)
+        for path in sorted(Path(folder).glob("*/*.tsv"))
+    )
+    rules = _sum_jobs(jobs.groupby("rule")).sort_values("wall_s", ascending=False)
+    everything = _sum_jobs(jobs.assign(rule="all").groupby("rule"))
+    return pd.concat([rules, everything]).round(2).reset_index()
 
 
-def read_jobs(paths: Iterable[Path]) -> list[dict[str, float]]:
-    """Return wall seconds and resident MB of each job; 0 where too short to be polled."""
-    jobs = []
-    for path in paths:
-        with path.open(newline="", encoding="utf-8") as stream:
-            for row in csv.DictReader(stream, delimiter="\t"):
-                keys = {"wall": "s", "rss": "max_rss"}
-                jobs.append({name: _number(row.get(key)) for name, key in keys.items()})
-    return jobs
-
-
-def _number(text: str | None) -> float:
-    try:
-        return float(text or 0)
-    except ValueError:
-        return 0.0
-
-
-def _sum_jobs(rule: str, jobs: list[dict[str, float]]) -> dict[str, object]:
-    wall = [job["wall"] for job in jobs]
-    return {
-        "rule": rule,
-        "jobs": len(jobs),
-        "wall_s": round(sum(wall), 1),
-        "wall_mean_s": round(sum(wall) / max(len(wall), 1), 2),
-        "wall_max_s": round(max(wall, default=0.0), 2),
-        "rss_max_mb": round(max((job["rss"] for job in jobs), default=0.0), 1),
-    }
+def _sum_jobs(jobs) -> pd.DataFrame:
+    return jobs.agg(
+        jobs=("s", "size"),
+        wall_s=("s", "sum"),
+        wall_mean_s=("s", "mean"),
+        wall_max_s=("s", "max"),
+        rss_max_mb=("max_rss", "max"),
+    )
