@@ -61,7 +61,6 @@ def judge_soft_modes(
                 pair = group[surface], group["hypar"]
                 part = f"{shape}: edges of designs strained more than the hypar's"
                 findings.append(comparer.compare(part, *pair, "edge_strain_rms"))
-    findings.sort(key=lambda finding: finding.part)
     method = f"isometry residuals up to {ISOMETRIC:g} count as none; strains are geometry"
     return Claim("C2", findings, method=method)
 
@@ -147,6 +146,4 @@ def judge_foldability(outcomes: Sequence[Outcome]) -> Claim:
             findings.append(state_fact(part, one.name, worst, value, RESPECTED_LIMIT, true))
             if part != name and part not in aside:
                 aside.append(part)
-    order = list(dict.fromkeys(finding.part for finding in findings))
-    findings.sort(key=lambda finding: order.index(finding.part))
     return Claim("C14", findings, open=tuple(aside))

@@ -89,7 +89,6 @@ def judge_free_edges(outcomes: Sequence[Outcome]) -> Claim:
             share = one.values["above_one_at_free_edge"] / above
             found = state_fact(place, one.name, "share of them", share, 0.5, share > 0.5)
             findings.append(found)
-    findings.sort(key=lambda finding: finding.part != many)
     return Claim("C11", findings, judges={many: judge_many, place: judge_many})
 
 

@@ -40,6 +40,8 @@ QUANTITIES = {
     "depth": Quantity("m", "m", 1, "geometry"),
     "panel_area": Quantity("m2", "m2", 1, "geometry"),
     "edge_strain_rms": Quantity("-", "%", 100, "geometry"),
+    "angle_defect_max_rad": Quantity("rad", "rad", 1, "geometry"),
+    "flat_foldability_max_rad": Quantity("rad", "rad", 1, "geometry"),
 }
 
 
@@ -112,37 +114,29 @@ class Comparer:
         self, part: str, greater: Outcome, lesser: Outcome, quantity: str, strict: bool = True
     ) -> Finding:
         """Find whether a quantity of `greater` exceeds that of `lesser` beyond uncertainty."""
-        values = greater.values.get(quantity), lesser.values.get(quantity)
-        errors = [
-            estimate_uncertainty(one, quantity, self.volume_step) for one in (greater, lesser)
-        ]
-        uncertainty = combine_errors(*errors)
-        return Finding(
-            part,
-            (greater.name, lesser.name),
-            quantity,
-            QUANTITIES[quantity].unit,
-            values,
-            uncertainty,
-            judge_difference(*values, uncertainty, strict),
-        )
+        names = greater.name, lesser.name
+        return self._compare(part, names, quantity, [(greater, quantity), (lesser, quantity)], strict)
 
     def compare_within(self, part: str, outcome: Outcome, greater: str, lesser: str) -> Finding:
         """Find whether one quantity of a design exceeds another of the same unit."""
-        values = outcome.values.get(greater), outcome.values.get(lesser)
-        errors = [
-            estimate_uncertainty(outcome, name, self.volume_step) for name in (greater, lesser)
-        ]
-        uncertainty = combine_errors(*errors)
-        return Finding(
-            part,
-            (outcome.name,),
-            f"{greater}, {lesser}",
-            QUANTITIES[greater].unit,
-            values,
-            uncertainty,
-            judge_difference(*values, uncertainty),
+        both = [(outcome, greater), (outcome, lesser)]
+        return self._compare(part, (outcome.name,), f"{greater}, {lesser}", both)
+
+    def _compare(
+        self,
+        part: str,
+        designs: tuple[str, ...],
+        quantity: str,
+        both: Sequence[tuple[Outcome, str]],
+        strict: bool = True,
+    ) -> Finding:
+        greater, lesser = (outcome.values.get(name) for outcome, name in both)
+        uncertainty = combine_errors(
+            *(estimate_uncertainty(outcome, name, self.volume_step) for outcome, name in both)
         )
+        unit = QUANTITIES[both[0][1]].unit
+        verdict = judge_difference(greater, lesser, uncertainty, strict)
+        return Finding(part, designs, quantity, unit, (greater, lesser), uncertainty, verdict)
 
 
 def make_comparer(sizing: Mapping[str, Any]) -> Comparer:
@@ -159,7 +153,8 @@ def state_fact(
     part: str, design: str, quantity: str, value: float | None, limit: float, true: bool
 ) -> Finding:
     """Return a finding that is counted, not measured: it has no uncertainty."""
-    return Finding(part, (design,), quantity, "-", (value, limit), 0.0, HOLDS if true else FAILS)
+    unit = QUANTITIES[quantity].unit if quantity in QUANTITIES else "-"
+    return Finding(part, (design,), quantity, unit, (value, limit), 0.0, HOLDS if true else FAILS)
 
 
 def choose(outcomes: Iterable[Outcome], **columns: Any) -> list[Outcome]:

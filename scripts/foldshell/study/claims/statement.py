@@ -68,6 +68,7 @@ class Claim:
 def describe_claim(claim: Claim) -> dict[str, Any]:
     """Return id, claim, verdict, numbers, designs, uncertainty and notes as plain data."""
     verdict, verdicts = claim.judge()
+    findings = [asdict(finding) for part in claim.parts.values() for finding in part]
     parts = [
         {"part": part, "verdict": verdicts[part], "asserted": part not in claim.open}
         | count_verdicts(findings)
@@ -77,7 +78,7 @@ def describe_claim(claim: Claim) -> dict[str, Any]:
         "id": claim.key,
         "claim": STATEMENTS[claim.key],
         "verdict": verdict,
-        "numbers": {"parts": parts, "findings": [asdict(f) for f in claim.findings]}
+        "numbers": {"parts": parts, "findings": findings}
         | dict(claim.numbers),
         "designs": sorted({name for f in claim.findings for name in f.designs}),
         "uncertainty": describe_uncertainty(claim),

@@ -1,6 +1,7 @@
 """Claims on curvature, supports and density: C4 to C9."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from itertools import combinations
 
 from foldshell.study.claims.finding import Finding
 from foldshell.study.claims.outcome import (
@@ -14,24 +15,32 @@ from foldshell.study.claims.outcome import (
 from foldshell.study.claims.statement import Claim
 
 
+def _compare_pairs(
+    pairs: Sequence[tuple[Outcome, Outcome]],
+    comparer: Comparer,
+    parts: Mapping[str, tuple[str, int]],
+) -> list[Finding]:
+    """Compare all pairs; `parts` has a quantity and which of a pair, 0 or 1, is to exceed."""
+    return [
+        comparer.compare(part, pair[greater], pair[1 - greater], quantity)
+        for part, (quantity, greater) in parts.items()
+        for pair in pairs
+    ]
+
+
 def judge_curvature(outcomes: Sequence[Outcome], comparer: Comparer) -> Claim:
     """C4: of two heights over one span, the lower is better used and deflects more."""
-    findings = []
-    for lower, higher in pair_neighbours(choose_folded(outcomes), "height_m"):
-        findings += [
-            comparer.compare("better utilization", lower, higher, "utilization_mean"),
-            comparer.compare("more deflection", lower, higher, "displacement"),
-        ]
+    parts = {"better utilization": ("utilization_mean", 0), "more deflection": ("displacement", 0)}
+    pairs = pair_neighbours(choose_folded(outcomes), "height_m")
     note = "Table 1 varies the height of the paraboloid and the arch only, not of the hypar."
-    return Claim("C4", _in_parts(findings), notes=(note,))
+    return Claim("C4", _compare_pairs(pairs, comparer, parts), notes=(note,))
 
 
 def judge_material(outcomes: Sequence[Outcome], comparer: Comparer) -> Claim:
     """C5: volume per area rises with the height of folded sheets, not with that of smooth ones."""
-    findings = [
-        comparer.compare("folded: more material", higher, lower, "volume_per_area")
-        for lower, higher in pair_neighbours(choose_folded(outcomes), "height_m")
-    ]
+    parts = {"folded: more material": ("volume_per_area", 1)}
+    pairs = pair_neighbours(choose_folded(outcomes), "height_m")
+    findings = _compare_pairs(pairs, comparer, parts)
     smooth = choose(outcomes, pattern="smooth")
     findings += [
         comparer.compare("smooth: no more", lower, higher, "volume_per_area", strict=False)
@@ -42,25 +51,24 @@ def judge_material(outcomes: Sequence[Outcome], comparer: Comparer) -> Claim:
 
 def judge_surfaces(outcomes: Sequence[Outcome], comparer: Comparer) -> Claim:
     """C6: volume per area of paraboloid, arch and hypar with all else equal."""
-    findings = []
-    for group in group_by_others(choose_folded(outcomes), "surface"):
-        if not {"paraboloid", "arch", "hypar"} <= set(group):
-            continue
-        dome, arch, saddle = (group[name] for name in ("paraboloid", "arch", "hypar"))
-        findings += [
-            comparer.compare("paraboloid above arch", dome, arch, "volume_per_area"),
-            comparer.compare("paraboloid above hypar", dome, saddle, "volume_per_area"),
-            comparer.compare("arch above hypar", arch, saddle, "volume_per_area"),
-        ]
-    return Claim("C6", _in_parts(findings))
+    names = ("paraboloid", "arch", "hypar")
+    groups = group_by_others(choose_folded(outcomes), "surface")
+    groups = [group for group in groups if set(names) <= set(group)]
+    findings = [
+        comparer.compare(f"{more} above {less}", group[more], group[less], "volume_per_area")
+        for more, less in combinations(names, 2)
+        for group in groups
+    ]
+    return Claim("C6", findings)
 
 
 SUPPORT_PARTS = {
-    "more even utilization": ("utilization_variation", "zigzag", "strip"),
-    "more volume": ("volume_per_area", "strip", "zigzag"),
-    "more deflection": ("displacement", "strip", "zigzag"),
+    "more even utilization": ("utilization_variation", 1),
+    "more volume": ("volume_per_area", 0),
+    "more deflection": ("displacement", 0),
 }
-"""Parts of C7: the quantity, the support with the greater value, the one with the lesser."""
+"""Parts of C7 on pairs of strip edges and zig-zag edges."""
+STRONGER_AXIS = {"stronger zig-zag axis: more deflection at equal thickness": ("displacement", 0)}
 
 
 NAMES = (
@@ -78,51 +86,37 @@ def judge_supports(
 
     `equal` are the same designs at one thickness, which shows the stronger axis itself.
     """
-    groups = group_by_others(choose_folded(outcomes), "support")
-    groups = [group for group in groups if {"strip", "zigzag"} <= set(group)]
-    findings = [
-        comparer.compare(part, group[greater], group[lesser], quantity)
-        for part, (quantity, greater, lesser) in SUPPORT_PARTS.items()
-        for group in groups
-    ]
-    part = "stronger zig-zag axis: more deflection at equal thickness"
-    findings += [
-        comparer.compare(part, group["strip"], group["zigzag"], "displacement")
-        for group in group_by_others(choose_folded(equal), "support")
+    findings = _compare_pairs(_pair_supports(outcomes), comparer, SUPPORT_PARTS)
+    findings += _compare_pairs(_pair_supports(equal), comparer, STRONGER_AXIS)
+    return Claim("C7", findings, notes=(NAMES,))
+
+
+def _pair_supports(outcomes: Sequence[Outcome]) -> list[tuple[Outcome, Outcome]]:
+    """Return (on strip edges, on zig-zag edges) with all else equal."""
+    return [
+        (group["strip"], group["zigzag"])
+        for group in group_by_others(choose_folded(outcomes), "support")
         if {"strip", "zigzag"} <= set(group)
     ]
-    return Claim("C7", findings, notes=(NAMES,))
 
 
 def judge_zigzags(
     outcomes: Sequence[Outcome], comparer: Comparer, equal: Sequence[Outcome] = ()
 ) -> Claim:
     """C8: of two counts of zig-zags, the lower gives the deeper section and deflects less."""
-    pairs = pair_neighbours(choose_folded(outcomes), "zigzag")
-    findings = [comparer.compare("deeper section", few, many, "depth") for few, many in pairs]
-    findings += [
-        comparer.compare("less deflection", many, few, "displacement") for few, many in pairs
-    ]
-    findings += [
-        comparer.compare("less deflection at equal thickness", many, few, "displacement")
-        for few, many in pair_neighbours(choose_folded(equal), "zigzag")
-    ]
-    return Claim("C8", findings, open=("less deflection at equal thickness",))
+    parts = {"deeper section": ("depth", 0), "less deflection": ("displacement", 1)}
+    aside = {"less deflection at equal thickness": ("displacement", 1)}
+    findings = _compare_pairs(pair_neighbours(choose_folded(outcomes), "zigzag"), comparer, parts)
+    findings += _compare_pairs(pair_neighbours(choose_folded(equal), "zigzag"), comparer, aside)
+    return Claim("C8", findings, open=tuple(aside))
 
 
 def judge_strips(outcomes: Sequence[Outcome], comparer: Comparer) -> Claim:
     """C9: of two counts of strips, the higher gives smaller panels, more evenly utilized."""
-    findings = []
-    for few, many in pair_neighbours(choose_folded(outcomes), "strip"):
-        findings += [
-            comparer.compare("smaller panels", few, many, "panel_area"),
-            comparer.compare("more even utilization", few, many, "utilization_variation"),
-            comparer.compare("higher mean utilization", many, few, "utilization_mean"),
-        ]
-    return Claim("C9", _in_parts(findings), open=("higher mean utilization",))
-
-
-def _in_parts(findings: Sequence[Finding]) -> list[Finding]:
-    """Return the findings sorted by part, parts in order of first appearance."""
-    order = list(dict.fromkeys(finding.part for finding in findings))
-    return sorted(findings, key=lambda finding: order.index(finding.part))
+    aside = {"higher mean utilization": ("utilization_mean", 1)}
+    parts = {
+        "smaller panels": ("panel_area", 0),
+        "more even utilization": ("utilization_variation", 0),
+    } | aside
+    pairs = pair_neighbours(choose_folded(outcomes), "strip")
+    return Claim("C9", _compare_pairs(pairs, comparer, parts), open=tuple(aside))
