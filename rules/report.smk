@@ -84,6 +84,7 @@ rule report:
     input:
         report_files,
         library=library("report"),
+        stylesheet=assets("report.css")[0],
     output:
         report=f"{RESULTS}/report.html",
     params:

@@ -11,15 +11,22 @@ from foldshell.study.errors import InputError, user_errors
 from foldshell.study.files import atomic_path
 
 
-def main(report: str | Path, snakefile: str, target: str, config: Mapping[str, Any]) -> None:
+def main(
+    report: str | Path,
+    stylesheet: str | Path,
+    snakefile: str,
+    target: str,
+    config: Mapping[str, Any],
+) -> None:
     """Let a second Snakemake, which runs no job, gather what is flagged below `target`.
 
     It works in the same folder while the first one holds the lock, and gets the same `config`
-    from the command line.
+    from the command line. `stylesheet` is added to Snakemake's own.
     """
     with atomic_path(report) as temporary:
         command = [sys.executable, "-m", "snakemake", "--nolock", "--cores", "1", "-s", snakefile]
         command += ["--report", str(temporary), target]
+        command += ["--report-stylesheet", str(stylesheet)]
         if config:
             command += ["--config", *(f"{key}={json.dumps(v)}" for key, v in config.items())]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
@@ -30,4 +37,8 @@ def main(report: str | Path, snakefile: str, target: str, config: Mapping[str, A
 
 if "snakemake" in globals():
     with user_errors():
-        main(snakemake.output.report, **snakemake.params)  # noqa: F821
+        main(
+            snakemake.output.report,  # noqa: F821
+            snakemake.input.stylesheet,  # noqa: F821
+            **snakemake.params,  # noqa: F821
+        )

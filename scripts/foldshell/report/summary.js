@@ -6,13 +6,11 @@ document.querySelectorAll("#summary th button").forEach((button, k) => {
   let turn = 1;
   button.onclick = () => {
     const body = document.querySelector("#summary tbody");
-    const key = (row) => row.cells[k].dataset.value ?? row.cells[k].textContent;
-    const rows = [...body.rows].sort((a, b) => turn * key(a).localeCompare(key(b), "en",
-      { numeric: true }));
-    const numbers = [...body.rows].every((row) => !row.cells[k].className.includes("number")
-      || row.cells[k].dataset.value === undefined) ? null : (row) =>
-      Number(row.cells[k].dataset.value ?? Infinity);
-    if (numbers) rows.sort((a, b) => turn * (numbers(a) - numbers(b)));
+    const text = (row) => row.cells[k].textContent;
+    const number = (row) => Number(row.cells[k].dataset.value ?? Infinity);
+    const numeric = [...body.rows].some((row) => row.cells[k].dataset.value !== undefined);
+    const rows = [...body.rows].sort((a, b) => turn * (numeric ? number(a) - number(b) || 0
+      : text(a).localeCompare(text(b), "en", { numeric: true })));
     body.replaceChildren(...rows);
     turn = -turn;
   };
