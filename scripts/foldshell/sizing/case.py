@@ -1,37 +1,18 @@
-"""What every analysis of a design shares: its model, material, loads, options and limits."""
+"""From mesh and plain settings to what every analysis of a design shares."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from foldshell.shell.analysis import AnalysisOptions, ShellModel, build_model
+from foldshell.shell.analysis import AnalysisOptions, build_model
 from foldshell.shell.loads import Loads
 from foldshell.shell.material import Material
 from foldshell.shell.mesh_files import mesh_from_arrays
 from foldshell.sizing.criteria import StopRule
-from foldshell.sizing.iteration import IterationTask, LoadPlan, run_iteration
+from foldshell.sizing.iteration import AnalysisCase, LoadPlan
 from foldshell.sizing.step import NEED_CONSTRAINTS
 from foldshell.study.errors import InputError
 from foldshell.study.files import read_arrays
-
-
-@dataclass(frozen=True)
-class AnalysisCase:
-    """A design ready for any thickness; `factor_min` is None where no constraints are asked for."""
-
-    model: ShellModel
-    material: Material
-    plan: LoadPlan
-    options: AnalysisOptions
-    rule: StopRule
-    factor_min: float | None
-
-    def run(self, task: IterationTask) -> tuple[dict[str, Any], dict[str, Any]]:
-        """Analyse one thickness vector: contents of analysis.json and analysis.npz."""
-        return run_iteration(
-            self.model, task, self.material, self.plan, self.options, self.rule, self.factor_min
-        )
 
 
 def make_stop_rule(sizing: Mapping[str, Any]) -> StopRule:

@@ -7,9 +7,8 @@ from typing import Any
 import numpy as np
 
 from foldshell.shell.results import panel_area
-from foldshell.sizing.case import AnalysisCase
 from foldshell.sizing.classes import ThicknessClasses, group_thicknesses
-from foldshell.sizing.iteration import IterationTask
+from foldshell.sizing.iteration import AnalysisCase, IterationTask
 from foldshell.workbook.panels import round_thickness
 
 CRITERIA = ("utilization_max", "displacement_vertical_m", "edge_beam_utilization")

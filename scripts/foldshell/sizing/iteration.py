@@ -2,7 +2,7 @@
 
 import time
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
@@ -24,6 +24,10 @@ from foldshell.shell.results import (
 )
 from foldshell.sizing.criteria import IterationState, StopRule, Verdict, judge_iteration
 from foldshell.sizing.linearise import linearise_constraints
+
+MEASURES = ("panel_mean", "element_max")
+"""Utilization of a panel: area mean over its cells, or its largest cell; see
+`panel_utilization`."""
 
 
 @dataclass(frozen=True)
@@ -52,64 +56,94 @@ class LoadPlan:
         return {**self.strength, **self.deflection}
 
 
-def run_iteration(
-    model: ShellModel,
-    task: IterationTask,
-    material: Material,
-    plan: LoadPlan,
-    options: AnalysisOptions,
-    rule: StopRule,
-    factor_min: float | None = None,
-) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
-    """Return the contents of analysis.json and analysis.npz.
+@dataclass(frozen=True)
+class AnalysisCase:
+    """A design ready for any thickness; `factor_min`, the buckling factor to keep, is None where no
+    constraints are asked for."""
 
-    With `factor_min`, the buckling factor to keep, the arrays of an analysis after which the loop
-    goes on hold the linearised constraints.
+    model: ShellModel
+    material: Material
+    plan: LoadPlan
+    options: AnalysisOptions
+    rule: StopRule
+    factor_min: float | None
+
+    def run(self, task: IterationTask) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
+        """Analyse one thickness vector: contents of analysis.json and analysis.npz.
+
+        With `factor_min` the arrays of an analysis after which the loop goes on hold the linearised
+        constraints.
+        """
+        began = time.perf_counter()
+        done = _analyse(self, task)
+        report, arrays = _describe(done)
+        verdict = _judge(done, report["volume_m3"])
+        report |= {
+            "verdict": verdict.verdict,
+            "reason": verdict.reason,
+            "criteria": verdict.criteria,
+            "quiet_iterations": verdict.quiet,
+        }
+        if done.utilization is not None:
+            for more, fields in (_describe_sheet(done), _describe_edge_beam(done)):
+                report |= more
+                arrays |= fields
+        if verdict.verdict != "continue":
+            arrays |= _final_fields(done)
+        elif self.factor_min is not None and done.result.state == "ok":
+            arrays |= _linearise(done, self.factor_min)
+        report["seconds"] = time.perf_counter() - began
+        return report, arrays
+
+
+@dataclass(frozen=True)
+class _Analysed:
+    """What the report of an analysis is made of; `thickness` is that of elements, (E,) m.
+
+    `panels` and `strips` hold the utilization of the sized panels (P,) and of the strips of an edge
+    beam (B,) by measure. They are empty, and `utilization` is None, where the analysis left no
+    displacements to rely on.
     """
-    began = time.perf_counter()
+
+    case: AnalysisCase
+    task: IterationTask
+    thickness: np.ndarray
+    result: AnalysisResult
+    utilization: Utilization | None = None
+    panels: Mapping[str, np.ndarray] = field(default_factory=dict)
+    strips: Mapping[str, np.ndarray] = field(default_factory=dict)
+
+    @property
+    def downward(self) -> tuple[float, int, str]:
+        """Largest downward displacement (m) of the deflection combinations, node, combination."""
+        plan = self.case.plan
+        deflection = self.result.displacement[:, len(plan.strength) :]
+        return largest_downward(self.case.model, deflection, list(plan.deflection))
+
+
+def _analyse(case: AnalysisCase, task: IterationTask) -> _Analysed:
+    model, material, plan = case.model, case.material, case.plan
     thickness = model.spread(task.thickness)
     modes = task.previous_arrays.get("buckling_modes")
     result = analyse_shell(
-        model, thickness, material, plan.loads, plan.combinations, options, modes
+        model, thickness, material, plan.loads, plan.combinations, case.options, modes
     )
-    report, arrays = _describe(model, task, result)
-    usable = result.state in ("ok", "not_converged")
-    utilization = _utilization(model, result, thickness, material, plan) if usable else None
-    panels, strips = _measure_panels(model, utilization)
-    verdict = _judge(task, result, report, (panels, strips), rule, model, plan)
-    report |= {
-        "verdict": verdict.verdict,
-        "reason": verdict.reason,
-        "criteria": verdict.criteria,
-        "quiet_iterations": verdict.quiet,
-    }
-    if usable:
-        report |= _headline(model, result, thickness, material, plan, utilization, panels)
-        report["panels_at_bound"] = _count_at_bound(task.thickness, rule)
-        report["panels_above_one"] = int((panels[rule.measure] > rule.utilization_max).sum())
-        arrays |= {f"utilization_{name}": values for name, values in panels.items()}
-        if len(model.fixed_thickness):
-            report |= _describe_edge_beam(model, utilization, strips)
-            arrays |= {f"edge_beam_utilization_{name}": strips[name] for name in strips}
-            arrays["edge_beam_panel"] = panels_beside_strips(model)
-    going_on = verdict.verdict == "continue"
-    if factor_min is not None and result.state == "ok" and going_on:
-        factors = combination_matrix(plan.combinations)
-        arrays |= linearise_constraints(
-            model, result, thickness, material, factors, utilization, rule, task.span, factor_min
-        ).to_arrays()
-    if not going_on:
-        arrays |= _final_fields(model, result, plan, utilization)
-    report["seconds"] = time.perf_counter() - began
-    return report, arrays
+    done = _Analysed(case, task, thickness, result)
+    if result.state not in ("ok", "not_converged"):
+        return done
+    strength = result.displacement[:, : len(plan.strength)]
+    utilization = compute_utilization(model, strength, thickness, material)
+    panels, strips = {}, {}
+    for name in MEASURES:
+        values = panel_utilization(model, utilization.cell, name)
+        panels[name], strips[name] = np.split(values, [model.sized_panels])
+    return replace(done, utilization=utilization, panels=panels, strips=strips)
 
 
-def _describe(
-    model: ShellModel, task: IterationTask, result: AnalysisResult
-) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
+def _describe(done: _Analysed) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
     """Return what every analysis says of itself, whatever its state."""
-    area = panel_area(model)
-    sized, fixed = np.split(area, [model.sized_panels])
+    model, task, result = done.case.model, done.task, done.result
+    sized, fixed = _split_area(model)
     report = {
         "iteration": task.iteration,
         "state": result.state,
@@ -128,9 +162,9 @@ def _describe(
     return report, arrays
 
 
-def _count_at_bound(thickness: np.ndarray, rule: StopRule) -> int:
-    at_bound = (thickness <= rule.least_thickness) | (thickness >= rule.largest_thickness)
-    return int(at_bound.sum())
+def _split_area(model: ShellModel) -> list[np.ndarray]:
+    """Return the areas of the sized panels (P,) and of the strips (B,), m2."""
+    return np.split(panel_area(model), [model.sized_panels])
 
 
 def _factors(result: AnalysisResult) -> dict[str, float | None]:
@@ -147,83 +181,82 @@ def _largest_residual(result: AnalysisResult) -> float | None:
     return float(result.second_order.residual.max()) if result.second_order else None
 
 
-def _utilization(model, result, thickness, material, plan: LoadPlan) -> Utilization:
-    columns = slice(0, len(plan.strength))
-    return compute_utilization(model, result.displacement[:, columns], thickness, material)
-
-
-def _measure_panels(model: ShellModel, utilization: Utilization | None):
-    """Return {measure: (P,)} of the sized panels and {measure: (B,)} of the strips."""
-    panels: dict[str, np.ndarray | None] = {}
-    strips: dict[str, np.ndarray | None] = {}
-    for name in ("panel_mean", "element_max"):
-        panels[name] = strips[name] = None
-        if utilization is not None:
-            values = panel_utilization(model, utilization.cell, name)
-            panels[name], strips[name] = np.split(values, [model.sized_panels])
-    return panels, strips
-
-
-def _describe_edge_beam(model: ShellModel, utilization: Utilization, strips) -> dict[str, Any]:
-    """Return volume and utilization of the strips: largest cell, and largest panel mean."""
-    return {
-        "edge_beam_volume_m3": float(
-            panel_area(model)[model.sized_panels :] @ model.fixed_thickness
-        ),
-        "edge_beam_utilization_max": float(utilization.cell[model.bare].max()),
-        "edge_beam_utilization_panel_mean_max": float(strips["panel_mean"].max()),
-    }
-
-
-def _judge(task, result, report, measured, rule, model, plan) -> Verdict:
-    utilization, strips = (values[rule.measure] for values in measured)
-    usable = utilization is not None
-    deflection = result.displacement[:, len(plan.strength) :]
-    down = largest_downward(model, deflection, list(plan.deflection))[0] if usable else np.nan
+def _judge(done: _Analysed, volume: float) -> Verdict:
+    task, result, rule = done.task, done.result, done.case.rule
+    strips = done.strips.get(rule.measure, np.empty(0))
     return judge_iteration(
         IterationState(
             iteration=task.iteration,
             state=result.state,
             reason=result.reason,
             thickness=task.thickness,
-            utilization=utilization,
-            displacement=down,
+            utilization=done.panels.get(rule.measure),
+            displacement=np.nan if done.utilization is None else done.downward[0],
             span=task.span,
-            volume=report["volume_m3"],
+            volume=volume,
             previous_volume=task.previous.get("volume_m3"),
             previous_thickness=task.previous_arrays.get("thickness"),
             previous_quiet=task.previous.get("quiet_iterations", 0),
-            edge_beam=float(strips.max()) if usable and len(strips) else None,
+            edge_beam=float(strips.max()) if len(strips) else None,
         ),
         rule,
     )
 
 
-def _headline(model, result, thickness, material, plan, utilization, panels) -> dict[str, Any]:
-    deflection = result.displacement[:, len(plan.strength) :]
-    down, node, combination = largest_downward(model, deflection, list(plan.deflection))
-    reactions = support_reactions(model, result, thickness, material)
+def _describe_sheet(done: _Analysed) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
+    """Return utilization of the sheet, displacement and reactions."""
+    model, rule, thickness = done.case.model, done.case.rule, done.task.thickness
+    down, node, combination = done.downward
+    reactions = support_reactions(model, done.result, done.thickness, done.case.material)
+    sums = reactions.sum(axis=0).T.tolist()
     sheet = slice(0, int((~model.bare).sum()))
-    area, cell = model.operators.geometry.area[sheet], utilization.cell[sheet]
-    mean = float(area @ cell.mean(axis=1) / area.sum())
-    return {
+    area, cell = model.operators.geometry.area[sheet], done.utilization.cell[sheet]
+    at_bound = (thickness <= rule.least_thickness) | (thickness >= rule.largest_thickness)
+    report = {
         "utilization_max": float(cell.max()),
-        "utilization_p99": area_percentile(model, utilization.point[sheet]),
-        "utilization_mean": mean,
-        "utilization_panel_mean_max": float(panels["panel_mean"].max()),
+        "utilization_p99": area_percentile(model, done.utilization.point[sheet]),
+        "utilization_mean": float(area @ cell.mean(axis=1) / area.sum()),
+        "utilization_panel_mean_max": float(done.panels["panel_mean"].max()),
         "displacement_vertical_max_m": down,
         "displacement_combination": combination,
         "displacement_place_m": model.mesh.nodes[node].tolist(),
-        "reaction_sum_kn": dict(zip(result.names, reactions.sum(axis=0).T.tolist(), strict=True)),
-        "reaction_imbalance": reaction_imbalance(model, result, reactions),
+        "reaction_sum_kn": dict(zip(done.result.names, sums, strict=True)),
+        "reaction_imbalance": reaction_imbalance(model, done.result, reactions),
+        "panels_at_bound": int(at_bound.sum()),
+        "panels_above_one": int((done.panels[rule.measure] > rule.utilization_max).sum()),
     }
+    return report, {f"utilization_{name}": values for name, values in done.panels.items()}
 
 
-def _final_fields(model, result, plan: LoadPlan, utilization) -> dict[str, np.ndarray]:
+def _describe_edge_beam(done: _Analysed) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
+    """Return volume and utilization of the strips, and the panels that they hang from; nothing
+    where there are no strips."""
+    model = done.case.model
+    if not len(model.fixed_thickness):
+        return {}, {}
+    report = {
+        "edge_beam_volume_m3": float(_split_area(model)[1] @ model.fixed_thickness),
+        "edge_beam_utilization_max": float(done.utilization.cell[model.bare].max()),
+        "edge_beam_utilization_panel_mean_max": float(done.strips["panel_mean"].max()),
+    }
+    arrays = {f"edge_beam_utilization_{name}": values for name, values in done.strips.items()}
+    return report, arrays | {"edge_beam_panel": panels_beside_strips(model)}
+
+
+def _linearise(done: _Analysed, factor_min: float) -> dict[str, np.ndarray]:
+    case = done.case
+    factors = combination_matrix(case.plan.combinations)
+    return linearise_constraints(
+        case.model, done.result, done.thickness, case.material, factors, done.utilization,
+        case.rule, done.task.span, factor_min,
+    ).to_arrays()  # fmt: skip
+
+
+def _final_fields(done: _Analysed) -> dict[str, np.ndarray]:
     """Return the fields that pictures and exports of the last state need."""
-    fields = {"displacement": result.displacement}
-    if utilization is not None:
-        fields["utilization_cell"] = utilization.cell
-        fields["governing_combination"] = utilization.governing
-        fields["translations"] = translations(model, result.displacement)
+    fields = {"displacement": done.result.displacement}
+    if done.utilization is not None:
+        fields["utilization_cell"] = done.utilization.cell
+        fields["governing_combination"] = done.utilization.governing
+        fields["translations"] = translations(done.case.model, done.result.displacement)
     return fields
