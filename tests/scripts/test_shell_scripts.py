@@ -37,12 +37,33 @@ def small_sheet() -> dict[str, np.ndarray]:
     return dict(vertices=vertices, quads=quads, facets=facets, zigzag=zigzag, strip=strip)
 
 
+def run_mesh(folder, sheet, support="zigzag", subdivisions=2, **options):
+    """Write folded.npz of a sheet, and run the script of the rule mesh on it."""
+    write_arrays(folder / "folded.npz", sheet)
+    files = [folder / name for name in ("folded.npz", "mesh.npz", "mesh.vtu")]
+    mesh.main(*files, design="small", support=support, subdivisions=subdivisions, **options)
+
+
+def run_neutral_model(folder):
+    """Run the script of the rule neutral_model; return the model."""
+    files = [folder / name for name in ("mesh.npz", "final.npz", "model.json")]
+    neutral_model.main(*files, design="small", settings=SETTINGS)
+    return read_json(files[-1])
+
+
+def run_refine(folder, subdivisions=2, **options):
+    """Run the script of the rule refine; return the mesh study and the primary code's values."""
+    files = [folder / name for name in ("folded.npz", "final.npz", "study.json", "primary.json")]
+    refine.main(
+        *files, support="zigzag", subdivisions=subdivisions, settings=SETTINGS, **options
+    )  # fmt: skip
+    return read_json(files[2]), read_json(files[3])
+
+
 @pytest.fixture
 def folder(tmp_path):
     """Return a folder with folded.npz, mesh.npz, mesh.vtu and final.npz."""
-    write_arrays(tmp_path / "folded.npz", small_sheet())
-    files = [tmp_path / name for name in ("folded.npz", "mesh.npz", "mesh.vtu")]
-    mesh.main(*files, design="small", support="zigzag", subdivisions=2)
+    run_mesh(tmp_path, small_sheet())
     thickness = np.linspace(0.05, 0.09, 9)
     write_arrays(tmp_path / "final.npz", {"thickness": thickness})
     return tmp_path
@@ -77,19 +98,13 @@ def test_mesh_vtu_has_n_by_n_cells_a_facet_and_their_panels(folder):
 def test_a_folded_facet_without_area_is_named(tmp_path):
     sheet = small_sheet()
     sheet["facets"][4] = [0, 0, 5]
-    write_arrays(tmp_path / "folded.npz", sheet)
-    files = [tmp_path / name for name in ("folded.npz", "mesh.npz", "mesh.vtu")]
     with pytest.raises(InputError, match="design small: mesh: facet 4"):
-        mesh.main(*files, design="small", support="all", subdivisions=2)
-    assert not files[1].exists()
+        run_mesh(tmp_path, sheet, support="all")
+    assert not (tmp_path / "mesh.npz").exists()
 
 
 def test_neutral_model_says_everything_in_plain_numbers(folder):
-    neutral_model.main(
-        folder / "mesh.npz", folder / "final.npz", folder / "model.json",
-        design="small", settings=SETTINGS,
-    )  # fmt: skip
-    model = read_json(folder / "model.json")
+    model = run_neutral_model(folder)
     assert model["format"] == FORMAT
     assert np.allclose(model["vertices_m"], small_sheet()["vertices"], rtol=0, atol=0)
     assert len(model["facets"]) == 18 and len(model["panel_thickness_m"]) == 9
@@ -100,11 +115,7 @@ def test_neutral_model_says_everything_in_plain_numbers(folder):
 
 
 def test_refine_gives_two_meshes_and_the_error_of_the_first(folder):
-    refine.main(
-        folder / "folded.npz", folder / "final.npz", folder / "study.json",
-        folder / "primary.json", support="zigzag", subdivisions=2, settings=SETTINGS,
-    )  # fmt: skip
-    study, primary = read_json(folder / "study.json"), read_json(folder / "primary.json")
+    study, primary = run_refine(folder)
     assert study["subdivisions"] == 2 and primary["subdivisions"] == [2, 12]
     assert set(primary["combinations"]) == {"S2", "D2"}
     coarse, fine = primary["combinations"]["S2"]["work_knm"]
@@ -127,11 +138,7 @@ def test_refine_of_a_mechanism_gives_its_reason_in_place_of_numbers(folder, monk
         return replace(result, state="mechanism", reason="node 3 moves", displacement=nothing)
 
     monkeypatch.setattr(mesh_study, "analyse_shell", give_way)
-    refine.main(
-        folder / "folded.npz", folder / "final.npz", folder / "study.json",
-        folder / "primary.json", support="zigzag", subdivisions=2, settings=SETTINGS,
-    )  # fmt: skip
-    study, primary = read_json(folder / "study.json"), read_json(folder / "primary.json")
+    study, primary = run_refine(folder)
     assert study["mesh_error"] is None and study["errors"] == {}
     assert primary["reason"] == "node 3 moves" and primary["combinations"] == {}
 
@@ -139,9 +146,7 @@ def test_refine_of_a_mechanism_gives_its_reason_in_place_of_numbers(folder, monk
 @pytest.fixture
 def beam_folder(tmp_path):
     """Return a folder with the files of a sheet on two edges, with strips along the others."""
-    write_arrays(tmp_path / "folded.npz", corrugated_sheet())
-    files = [tmp_path / name for name in ("folded.npz", "mesh.npz", "mesh.vtu")]
-    mesh.main(*files, design="small", support="zigzag", subdivisions=4, edge_beam=[0.4, 0.1])
+    run_mesh(tmp_path, corrugated_sheet(), subdivisions=4, edge_beam=[0.4, 0.1])
     write_arrays(tmp_path / "final.npz", {"thickness": np.linspace(0.05, 0.09, PANELS)})
     return tmp_path
 
@@ -150,20 +155,14 @@ def test_a_strip_that_pierces_the_sheet_is_refused(tmp_path):
     """A leaf of the sheet that is folded back under its own border stands in the way."""
     sheet = corrugated_sheet()
     sheet["vertices"][sheet["strip"] == 1] += [-3.5, 0, -0.9]
-    write_arrays(tmp_path / "folded.npz", sheet)
-    files = [tmp_path / name for name in ("folded.npz", "mesh.npz", "mesh.vtu")]
     with pytest.raises(InputError, match="design small: edge_beam_depth_m: the strip pierces"):
-        mesh.main(*files, design="small", support="zigzag", subdivisions=2, edge_beam=[3.0, 0.1])
-    assert not files[1].exists()
+        run_mesh(tmp_path, sheet, edge_beam=[3.0, 0.1])
+    assert not (tmp_path / "mesh.npz").exists()
 
 
 def test_neutral_model_of_an_edge_beam_names_the_panels_without_area_loads(beam_folder):
     """Another format, so that a program that does not know those panels refuses the file."""
-    neutral_model.main(
-        beam_folder / "mesh.npz", beam_folder / "final.npz", beam_folder / "model.json",
-        design="small", settings=SETTINGS,
-    )  # fmt: skip
-    model = read_json(beam_folder / "model.json")
+    model = run_neutral_model(beam_folder)
     assert model["format"] == EDGE_BEAM_FORMAT != FORMAT
     assert model["self_weight_only_panels"] == list(range(PANELS, PANELS + 6))
     assert model["panel_thickness_m"][PANELS - 1 :] == [0.09] + [0.1] * 6
@@ -178,20 +177,11 @@ def test_a_design_with_an_edge_beam_passes_the_cross_check(beam_folder):
     puts area loads on the strips.
     """
     crosscheck = runpy.run_path(str(SCRIPTS / "crosscheck.py"))["main"]
-    files = {name: beam_folder / f"{name}.json" for name in ("model", "study", "primary")}
-    neutral_model.main(
-        beam_folder / "mesh.npz", beam_folder / "final.npz", files["model"],
-        design="small", settings=SETTINGS,
-    )  # fmt: skip
-    refine.main(
-        beam_folder / "folded.npz", beam_folder / "final.npz", files["study"], files["primary"],
-        support="zigzag", subdivisions=4, settings=SETTINGS, edge_beam=[0.4, 0.1],
-    )  # fmt: skip
-    result = beam_folder / "comparison.json"
-    crosscheck(
-        files["model"], files["primary"], result, beam_folder / "comparison.xlsx",
-        subdivisions=[1, 2],
-    )  # fmt: skip
-    comparison = read_json(result)
+    run_neutral_model(beam_folder)
+    run_refine(beam_folder, subdivisions=4, edge_beam=[0.4, 0.1])
+    names = ("model.json", "primary.json", "comparison.json", "comparison.xlsx")
+    files = [beam_folder / name for name in names]
+    crosscheck(*files, subdivisions=[1, 2])
+    comparison = read_json(files[2])
     assert comparison["pass"], comparison["quantities"]
     assert "S2 reaction_z_kn" in comparison["quantities"]

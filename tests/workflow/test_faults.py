@@ -11,8 +11,8 @@ import subprocess
 import pytest
 import yaml
 from study_runner import (
+    TARGET,
     command,
-    copy_code,
     find_jobs,
     make_study,
     results,
@@ -23,24 +23,15 @@ from study_runner import (
 
 pytestmark = pytest.mark.slow
 
-TARGET = "results/summary.csv"
 ONE_DESIGN = "results/tiny-dome/design.xlsx"
 KILLS = 40
 
 
-@pytest.fixture(scope="module")
-def code(tmp_path_factory):
-    """Return a copy of the workflow's code."""
-    return copy_code(tmp_path_factory.mktemp("code"))
-
-
-@pytest.fixture(scope="module")
-def undisturbed(code, tmp_path_factory):
-    """Return the folder of a tiny study that has run undisturbed."""
-    folder = make_study(tmp_path_factory.mktemp("study"))
+def end_like(code, folder, other):
+    """Run a study to its end, and compare all its results with those of another folder."""
     done = run(code, folder, TARGET)
     assert done.returncode == 0, done.stderr[-3000:]
-    return folder
+    assert results(folder) == results(other)
 
 
 def remove_locks(folder):
@@ -66,7 +57,7 @@ def kill_something(process, chance):
     return victim
 
 
-def test_forty_kills_leave_the_results_of_an_undisturbed_run(code, undisturbed, tmp_path):
+def test_forty_kills_leave_the_results_of_an_undisturbed_run(code, finished, tmp_path):
     """Scheduler and jobs die at random moments until the study is done; then another one."""
     chance, kills, studies = random.Random(5), 0, 0
     while kills < KILLS:
@@ -78,33 +69,29 @@ def test_forty_kills_leave_the_results_of_an_undisturbed_run(code, undisturbed, 
             if process.poll() is None and kill_something(process, chance):
                 kills += 1
             remove_locks(folder)
-        done = run(code, folder, TARGET)
-        assert done.returncode == 0, done.stderr[-3000:]
-        assert results(folder) == results(undisturbed)
+        end_like(code, folder, finished)
 
 
-def test_after_ctrl_c_the_next_start_goes_on(code, undisturbed, tmp_path):
+def test_after_ctrl_c_the_next_start_goes_on(code, finished, tmp_path):
     """Snakemake takes its lock away; what a stopped job had begun is not taken as done."""
     folder = make_study(tmp_path / "stopped")
     process = run_until_files(code, folder, 12, 0.1, TARGET)
     os.killpg(process.pid, signal.SIGINT)
     assert process.wait() != 0
-    done = run(code, folder, TARGET)
-    assert done.returncode == 0, done.stderr[-3000:]
-    assert results(folder) == results(undisturbed)
+    end_like(code, folder, finished)
 
 
-def test_a_second_start_is_refused_and_harms_nothing(code, undisturbed, tmp_path):
+def test_a_second_start_is_refused_and_harms_nothing(code, finished, tmp_path):
     folder = make_study(tmp_path / "twice")
     first = run_until_files(code, folder, 3, 0, TARGET)
     second = run(code, folder, TARGET)
     assert second.returncode != 0
     assert "cannot be locked" in second.stderr and "--unlock" in second.stderr
     assert first.wait() == 0
-    assert results(folder) == results(undisturbed)
+    assert results(folder) == results(finished)
 
 
-def test_a_full_disk_is_said_and_nothing_is_lost_once_it_is_freed(code, undisturbed, tmp_path):
+def test_a_full_disk_is_said_and_nothing_is_lost_once_it_is_freed(code, finished, tmp_path):
     """A limit on the size of files stands for a disk without space."""
     folder, limit = make_study(tmp_path / "full"), (20_000, 20_000)
     done = subprocess.run(
@@ -117,9 +104,7 @@ def test_a_full_disk_is_said_and_nothing_is_lost_once_it_is_freed(code, undistur
     assert done.returncode != 0
     assert "free some space and start again" in done.stderr
     assert not list((folder / "results").rglob(".writing-*"))
-    done = run(code, folder, TARGET)
-    assert done.returncode == 0, done.stderr[-3000:]
-    assert results(folder) == results(undisturbed)
+    end_like(code, folder, finished)
 
 
 def test_settings_changed_half_way_give_what_they_give_from_scratch(code, tmp_path):
@@ -137,10 +122,10 @@ def test_settings_changed_half_way_give_what_they_give_from_scratch(code, tmp_pa
     assert results(folder) == results(fresh)
 
 
-def test_verify_finds_and_mends_what_snakemake_does_not_notice(code, undisturbed, tmp_path):
+def test_verify_finds_and_mends_what_snakemake_does_not_notice(code, finished, tmp_path):
     """A deleted analysis in the middle, a cut mesh, a number changed in the final state."""
     folder = tmp_path / "spoilt"
-    shutil.copytree(undisturbed, folder, symlinks=True, copy_function=shutil.copy2)
+    shutil.copytree(finished, folder, symlinks=True, copy_function=shutil.copy2)
     spoilt = [
         folder / "results/tiny-dome" / name
         for name in ("sizing/01/analysis.json", "shell/mesh.npz", "sizing/final.json")
@@ -153,8 +138,7 @@ def test_verify_finds_and_mends_what_snakemake_does_not_notice(code, undisturbed
     for done in verify:
         assert done.returncode == 1
         assert all(str(path.relative_to(folder)) in done.stdout for path in spoilt)
-    assert run(code, folder, TARGET).returncode == 0
-    assert results(folder) == results(undisturbed)
+    end_like(code, folder, finished)
     assert start_script(code, folder).returncode == 0
 
 

@@ -4,16 +4,16 @@ import json
 import re
 
 import pytest
-from study_runner import copy_code, make_study, run
+from study_runner import make_study, run
 
 BROWSERS_LIMIT = 2_000_000
 """Characters of a data URI that Chromium still shows in a frame."""
 
 
 @pytest.mark.slow
-def test_report_holds_every_page_below_the_limit(tmp_path):
+def test_report_holds_every_page_below_the_limit(code, tmp_path):
     """Pages of both designs, summary, verification, settings and figures; no claims, no host."""
-    code, folder = copy_code(tmp_path / "code"), make_study(tmp_path / "study")
+    folder = make_study(tmp_path / "study")
     done = run(code, folder, "results/report.html")
     assert done.returncode == 0, done.stderr[-3000:]
     text = (folder / "results/report.html").read_text(encoding="utf-8")

@@ -11,30 +11,13 @@ import pytest
 from study_runner import (
     DESIGNS,
     SETTINGS,
-    copy_code,
+    TARGET,
     hashes,
     make_study,
     run,
     run_and_kill,
     times,
 )
-
-TARGET = "results/summary.csv"
-
-
-@pytest.fixture(scope="module")
-def code(tmp_path_factory):
-    """Return a copy of the workflow's code."""
-    return copy_code(tmp_path_factory.mktemp("code"))
-
-
-@pytest.fixture(scope="module")
-def finished(code, tmp_path_factory):
-    """Return the folder of a tiny study that has run undisturbed."""
-    folder = make_study(tmp_path_factory.mktemp("study"))
-    done = run(code, folder, TARGET)
-    assert done.returncode == 0, done.stderr[-3000:]
-    return folder
 
 
 @pytest.fixture
