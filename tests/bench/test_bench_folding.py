@@ -5,7 +5,6 @@ with the square of the vertices, which a dense or an unordered solution would no
 """
 
 import csv
-import math
 import resource
 import time
 from pathlib import Path
@@ -15,8 +14,10 @@ import pytest
 
 from foldshell.folding.fold import SOLVERS, fold_sheet
 from foldshell.folding.normal_equations import cholmod
+from foldshell.folding.quality import root_mean_square
 from foldshell.folding.settings import FoldSettings
 from foldshell.folding.targets import make_target
+from foldshell.folding.terms import measure_distances
 from foldshell.pattern.design import design_sheet
 
 pytestmark = pytest.mark.bench
@@ -47,8 +48,7 @@ def _time(solver, sheet, target, settings=None, mode="paper"):
         if wall > 2:
             break
     points = shape.vertices[sheet.grid.zigzag % 2 == 0]
-    closest, normals = target.find_closest(points)
-    rms = math.sqrt(np.mean(np.einsum("ij,ij->i", normals, points - closest) ** 2)) / target.span
+    rms = root_mean_square(measure_distances(points, target)) / target.span
     return {
         "task": "exact" if mode == "exact" else "fold",
         "code": "foldshell",

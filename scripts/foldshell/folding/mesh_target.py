@@ -121,6 +121,7 @@ class _Locator:
         self._locator.BuildLocator()
 
     def find_closest(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Triangles (N,) closest to points (N, 3), and the closest points' weights (N, 3)."""
         from vtkmodules.vtkCommonCore import mutable
 
         cell, sub, squared = mutable(0), mutable(0), mutable(0.0)

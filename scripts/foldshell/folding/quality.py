@@ -102,21 +102,22 @@ def find_convex(vertices: np.ndarray, quads: np.ndarray) -> np.ndarray:
     return (turn > 0).all(axis=1)
 
 
+def measure_sides(vertices: np.ndarray, polygons: np.ndarray) -> np.ndarray:
+    """Lengths (N, k) [m] of the sides of polygons (N, k), each from its corner to the next."""
+    corners = vertices[polygons]
+    return np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
+
+
 def measure_edge_ratio(vertices: np.ndarray, quads: np.ndarray) -> np.ndarray:
     """Longest over shortest side of each panel (P,)."""
-    corners = vertices[quads]
-    sides = np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
+    sides = measure_sides(vertices, quads)
     return sides.max(axis=1) / sides.min(axis=1)
 
 
 def measure_strain(vertices: np.ndarray, flat: np.ndarray, facets: np.ndarray) -> np.ndarray:
     """Largest edge strain of each facet (F,)."""
-
-    def sides(points: np.ndarray) -> np.ndarray:
-        corners = points[facets]
-        return np.linalg.norm(np.roll(corners, -1, axis=1) - corners, axis=2)
-
-    return np.abs(sides(vertices) / sides(flat) - 1).max(axis=1)
+    strain = measure_sides(vertices, facets) / measure_sides(flat, facets) - 1
+    return np.abs(strain).max(axis=1)
 
 
 def measure_coverage(

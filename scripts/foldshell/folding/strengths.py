@@ -5,14 +5,13 @@ whatever the strengths (Tsiamis, Oliva and Calvano, 2018, 'Folding by physics si
 """
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from foldshell.folding.constraints import require_planar
 from foldshell.folding.intersections import find_intersections
 from foldshell.folding.problem import (
-    Weights,
     build_terms,
     edge_lengths,
     place_sheet,
@@ -109,16 +108,7 @@ def _build_terms(
     panel: float,
 ) -> list[Term]:
     given = settings.weights
-    weights = Weights(
-        stretch=given.stretch,
-        hinge=given.hinge,
-        hinge_steep=given.hinge_steep,
-        neutral_fold=panel,
-        neutral_fold_steep=panel,
-        attraction=attraction,
-        plan_edge=given.plan_edge,
-        plan_edge_steep=given.plan_edge_steep,
-    )
+    weights = replace(given, neutral_fold=panel, neutral_fold_steep=panel, attraction=attraction)
     stretch, creases, neutral, pull, edges = build_terms(sheet, target, settings.attract, weights)
     if panels == "triangles":
         return [stretch, creases, neutral, pull, edges]

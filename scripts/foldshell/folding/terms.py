@@ -57,6 +57,12 @@ class Target(Protocol):
         ...
 
 
+def measure_distances(points: np.ndarray, target: Target) -> np.ndarray:
+    """n.(x - p(x)): signed distances (N,) [m] of points (N, 3) to the target, above positive."""
+    closest, normals = target.find_closest(points)
+    return np.einsum("ij,ij->i", normals, points - closest)
+
+
 def vertex_columns(vertices: np.ndarray) -> np.ndarray:
     """Unknowns (m, 3 k) of rows that touch vertices (m, k)."""
     return (3 * vertices[:, :, None] + np.arange(3)).reshape(len(vertices), -1)
