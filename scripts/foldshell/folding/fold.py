@@ -12,7 +12,7 @@ from foldshell.folding.quality import Quality, measure_quality, measure_start_co
 from foldshell.folding.settings import MODES, FoldSettings
 from foldshell.folding.shape import Shape
 from foldshell.folding.soft import fold_softly
-from foldshell.folding.terms import Target
+from foldshell.folding.terms import Target, measure_distances
 from foldshell.folding.true_pattern import fold_exactly, fold_rigidly
 from foldshell.pattern.sheet import Sheet
 
@@ -50,15 +50,14 @@ def fold_sheet(sheet: Sheet, target: Target, mode: str, settings: FoldSettings) 
     if sheet.kind == "flat":  # it is not meant to reach the target
         distances = np.zeros(len(shape.vertices))
     else:
-        closest, normals = target.find_closest(shape.vertices)
-        distances = np.einsum("ij,ij->i", normals, shape.vertices - closest)
+        distances = measure_distances(shape.vertices, target)
     folded = sheet.kind not in LAYOUTS
     quality = measure_quality(
         shape.vertices, sheet.grid, shape.flat, distances[attracted], target.span, folded
     )
     start_coverage = measure_start_coverage(sheet, target, settings.attract) if folded else 0.0
     least = settings.limits.plan_coverage * start_coverage
-    state, reason = judge_shape(shape, quality, settings.limits.rms_over_span, least, mode)
+    state, reason = judge_shape(shape, quality, settings.limits.allowed_rms(mode), least, mode)
     seconds = time.perf_counter() - start
     return FoldResult(shape, attracted, distances, quality, state, reason, seconds)
 

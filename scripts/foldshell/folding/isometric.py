@@ -31,7 +31,7 @@ from foldshell.folding.quality import (
 )
 from foldshell.folding.settings import FoldSettings
 from foldshell.folding.shape import Shape
-from foldshell.folding.terms import Stretch, Target, Term
+from foldshell.folding.terms import Stretch, Target, Term, measure_distances
 from foldshell.pattern.angles import measure_folds
 from foldshell.pattern.miura import size_miura
 from foldshell.pattern.sheet import Sheet, make_miura_sheet
@@ -69,7 +69,8 @@ class Attempt:
 def fold_isometrically(sheet: Sheet, target: Target, settings: FoldSettings) -> Shape:
     """Bend the planar rest state towards the target, harden the lengths, project onto r = 0.
 
-    On a steep target sheets of other angles and sizes are tried instead; the nearest is kept.
+    On a steep target the sheets of STEEP_SHEETS are tried in place of the given one, until one
+    is CLOSE; of those that did not crumple the nearest is kept, and `reason` names it.
     Folds are held on their own side with the weight of the lengths, so that a target that
     cannot be reached leaves a distance rather than a crumpled sheet.
     """
@@ -82,12 +83,16 @@ def fold_isometrically(sheet: Sheet, target: Target, settings: FoldSettings) -> 
         if attempts[-1].distance <= CLOSE and not attempts[-1].crumpled:
             break
     best = min(attempts, key=lambda a: (a.solution.residual > STRAIN, a.crumpled, a.distance))
-    residuals = {"constraint_residual": best.solution.residual}
+    residuals, reason = {"constraint_residual": best.solution.residual}, best.solution.reason
     if "sector_angle_deg" in best.sheet.settings:
-        residuals["start_sector_angle_deg"] = best.sheet.settings["sector_angle_deg"]
+        angle = best.sheet.settings["sector_angle_deg"]
+        residuals["start_sector_angle_deg"] = angle
+        if best.sheet is not sheet:
+            reason += f"; another sheet than the given one, of {angle:.0f} deg"
+            reason += f", the best of {len(attempts)} tried"
     return Shape(
         best.solution.vertices, best.sheet.flat, sum(a.solution.iterations for a in attempts),
-        best.solution.residual <= STRAIN, best.solution.reason, residuals,
+        best.solution.residual <= STRAIN, reason, residuals,
     )  # fmt: skip
 
 
@@ -133,8 +138,7 @@ def _attempt(
         f"edge lengths kept to {projected.residual:.1e}",
     )  # fmt: skip
     points = solution.vertices[attracted_vertices(sheet, settings.attract)]
-    closest, normals = target.find_closest(points)
-    distance = root_mean_square(np.einsum("ij,ij->i", normals, points - closest)) / target.span
+    distance = root_mean_square(measure_distances(points, target)) / target.span
     return Attempt(sheet, solution, distance, _is_crumpled(solution.vertices, sheet, target, least))
 
 

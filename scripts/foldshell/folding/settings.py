@@ -9,6 +9,8 @@ from foldshell.folding.problem import Weights
 from foldshell.study.errors import InputError
 
 MODES = ("paper", "isometric", "exact", "rigid")
+# 2e-3 is what rigid domes are to reach; isometric saddles come nearer, or something went wrong.
+SADDLE_RMS = 1.6e-3
 ENGINES = ("levenberg_marquardt", "averaged_projections")
 
 
@@ -21,6 +23,10 @@ class Limits:
 
     rms_over_span: float = 2e-3
     plan_coverage: float = 0.8
+
+    def allowed_rms(self, mode: str) -> float:
+        """rms distance over span that `mode` may leave: an isometric saddle at most SADDLE_RMS."""
+        return min(self.rms_over_span, SADDLE_RMS) if mode == "isometric" else self.rms_over_span
 
 
 @dataclass(frozen=True)
