@@ -33,6 +33,7 @@ def test_rigid_pattern_and_path_are_written(tmp_path):
     assert np.array_equal(sheet.flat[:, :2], folded["flat"][:, :2])
     assert len(sheet.path) == 10 and sheet.path[-1].title == "folded"
     assert np.ptp(sheet.path[0].vertices[:, 2]) < 1e-9  # starts flat
+    assert sheet.settings == {}  # the given sheet's sides and angle are not those of this one
     lengths = [
         np.linalg.norm(np.diff(frame.vertices[sheet.grid.edges], axis=1), axis=-1)
         for frame in sheet.path
@@ -44,6 +45,7 @@ def test_rigid_pattern_and_path_are_written(tmp_path):
 def test_soft_sheet_has_no_rigid_path(tmp_path):
     folded, sheet = _run(tmp_path, "paper")
     assert [frame.title for frame in sheet.path] == ["folded"]
+    assert sheet.settings == read_fold(tmp_path / "a.fold").settings
     assert np.array_equal(sheet.path[0].vertices, folded["vertices"])
 
 

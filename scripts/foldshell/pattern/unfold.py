@@ -208,4 +208,8 @@ def describe_true_sheet(
                 Frame(f"rigid path {part:.3f}", state)
                 for part, state in zip(parts, states, strict=True)
             ] + frames
-    return replace(sheet, flat=flat, rest=folded, path=tuple(frames), unrolled=None)
+    # Sides and angles of the given pattern do not describe another one.
+    settings = sheet.settings if np.array_equal(flat, sheet.flat) else {}
+    return replace(
+        sheet, flat=flat, rest=folded, path=tuple(frames), settings=settings, unrolled=None
+    )
