@@ -11,11 +11,22 @@ from foldshell.study.claims.outcome import Comparer
 COMPARER = Comparer()
 
 
-def _table(ratio=-1.0, shapes=("twist", "saddle"), dome=0.5, stresses=(20, 0), folded=None):
+QUADS, TRIANGLES = (True, False), (True, True)
+"""Two strengths: one of them folds quadrilaterals, both fold triangles."""
+
+
+def _fold_all(engine, quads=QUADS, triangles=TRIANGLES):
+    return [
+        {"surface": "hypar", "engine": engine, "panels": kind, "reached": one, "folded": False,
+         "iterations": 7}
+        for kind, values in (("quadrilaterals", quads), ("triangles", triangles)) for one in values
+    ]  # fmt: skip
+
+
+def _table(ratio=-1.0, shapes=("twist", "saddle"), dome=0.5, stresses=(20, 0), strengths=()):
     modes = [{"panel_over_crease": 1.0, "stiffness": k + 1.0, "shape": shape}
              for k, shape in enumerate((*shapes, "other"))]  # fmt: skip
     residual = {"twist": 0.0, "saddle": 0.0, "dome": dome, "arch": dome}
-    folded = folded or {"quadrilaterals": (True, False), "triangles": (True, True)}
     return {
         "ratios": [{"fold_angle_deg": 50.0, "in_plane": ratio, "in_plane_exact": ratio + 1e-9}],
         "sheets": [{
@@ -23,9 +34,7 @@ def _table(ratio=-1.0, shapes=("twist", "saddle"), dome=0.5, stresses=(20, 0), f
             "rigid_panels": {"self_stresses": stresses[0]},
             "bending_panels": {"self_stresses": stresses[1]},
         }],
-        "strengths": [{"surface": "hypar", "engine": "own", "panels": kind, "reached": one,
-                       "folded": False}
-                      for kind, values in folded.items() for one in values],
+        "strengths": [*strengths],
     }  # fmt: skip
 
 
@@ -67,9 +76,18 @@ def test_strain_of_designs_enters():
     ],
 )
 def test_strengths(quads, triangles, stresses, verdict):
-    folded = {"quadrilaterals": quads, "triangles": triangles}
-    table = _table(folded=folded, stresses=stresses)
+    table = _table(strengths=_fold_all("own", quads, triangles), stresses=stresses)
     assert kinematics.judge_strengths(table).judge()[0] == verdict
+
+
+def test_engines_that_disagree_are_told_apart():
+    strengths = _fold_all("one") + _fold_all("other_way", triangles=(True, False))
+    claim = kinematics.judge_strengths(_table(strengths=strengths))
+    verdict, parts = claim.judge()
+    assert verdict == parts["triangles reach the target at all strengths"] == "mixed"
+    assert len(claim.parts["triangles reach the target at all strengths"]) == 2
+    assert "By one alone: holds, from 4 foldings of at most 7 iterations." in claim.notes
+    assert "By other way alone: mixed, from 4 foldings of at most 7 iterations." in claim.notes
 
 
 def _folded(mode, **quality):

@@ -44,6 +44,7 @@ def test_what_holds_designs():
             make_outcome({"panels_at_bound": 210, "utilization_panel_mean_max": 0.5}),
             make_outcome({"buckling_factor": 1.2}),
             make_outcome({"displacement": None, "state": "unstable"}),
+            make_outcome({"buckling_factor": None, "utilization_panel_mean_max": 0.7}),
         ],
         COMPARER,
     )
@@ -51,6 +52,7 @@ def test_what_holds_designs():
         "buckling factor": 1,
         "displacement": 1,
         "least thickness in every panel": 1,
+        "none of these": 1,
         "unstable": 1,
         "utilization of a panel": 1,
     }
@@ -74,6 +76,13 @@ def _on_two_edges(*above):
 )
 def test_free_edges(above, verdict):
     assert limits.judge_free_edges(_on_two_edges(*above)).judge()[0] == verdict
+
+
+def test_points_above_one_are_said_beside_the_panels():
+    designs = [make_outcome({"utilization_max": u}, support="strip", strip=16 + k)
+               for k, u in enumerate((2.0, 0.9))]  # fmt: skip
+    (note,) = limits.judge_free_edges(designs).notes
+    assert "single points exceed 1 in 1 of 2 designs" in note
 
 
 def test_free_edges_of_designs_held_all_round_say_nothing():

@@ -41,7 +41,7 @@ def test_claims_that_the_runs_do_not_cover_tell_how_far_volumes_change():
     """90 / 80 m3 on one surface, 160 / 80 m3 for the other setting."""
     assert judge_variants("C4", VARIANTS, COMPARER) is None
     words = describe_dependence(judge_curvature([], COMPARER), None, None, VARIANTS)
-    assert "hold nothing of this claim" in words
+    assert "No run with other settings answers this claim" in words
     assert "12.5 % with start_60" in words and "100 % with element_max" in words
 
 

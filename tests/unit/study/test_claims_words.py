@@ -1,6 +1,9 @@
 """The page of claims: what stands in its tables."""
 
+from dataclasses import replace
+
 from claims_case import make_outcome
+from foldshell.study.claims.kinematics import judge_foldability
 from foldshell.study.claims.limits import judge_folds
 from foldshell.study.claims.outcome import Comparer
 from foldshell.study.claims.statement import Claim, describe_claim
@@ -28,6 +31,21 @@ def test_a_row_holds_the_values_in_the_order_of_its_name():
     assert "zigzag\\|strip" in row
     assert "0.5 / 0.3 ± 0.029: holds" in row and "50 / 80 ± 4.8: holds" in row
     assert "volume per area [mm]" in table
+
+
+def test_rows_share_a_table_only_where_columns_mean_the_same():
+    """The worst of planarity and strain decides rigid foldability: the header says which it is."""
+    exact = {"planarity_max": 0.0, "edge_strain_max": 0.0, "angle_defect_max_rad": 0.0,
+             "flat_foldability_max_rad": 0.0}  # fmt: skip
+    designs = [
+        replace(make_outcome(strip=16 + k), quality=exact | {worst: 0.02})
+        for k, worst in enumerate(("planarity_max", "edge_strain_max", "planarity_max"))
+    ]
+    tables = write_findings(describe_claim(judge_foldability(designs))["numbers"]["findings"])
+    assert [len(table.splitlines()) for table in tables] == [4, 3]
+    assert "rigid foldability: planarity max [-], limit 0.001" in tables[0]
+    assert "rigid foldability: edge strain max [-], limit 0.001" in tables[1]
+    assert "angle defect max [rad]" in tables[0]
 
 
 def test_a_section_says_what_cannot_be_told():

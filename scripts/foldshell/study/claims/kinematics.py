@@ -1,6 +1,7 @@
 """Claims on folding: C1, C2, C3 and C14."""
 
 from collections.abc import Mapping, Sequence
+from itertools import product
 from typing import Any
 
 from foldshell.study.claims.finding import FAILS, HOLDS, Finding, judge_difference
@@ -13,6 +14,7 @@ from foldshell.study.claims.outcome import (
     state_fact,
 )
 from foldshell.study.claims.statement import Claim
+from foldshell.study.claims.words import say
 
 SOFT_SHAPES = {"twist", "saddle"}
 ISOMETRIC = 1e-6
@@ -53,7 +55,7 @@ def judge_soft_modes(
         for shape in ("dome", "arch"):
             values = sheet["isometry_residual"][shape], sheet["isometry_residual"]["saddle"]
             part, verdict = f"{shape} costs distortion", judge_difference(*values, ISOMETRIC)
-            names = "isometry residual"
+            names = "isometry residual, that of the saddle"
             findings.append(Finding(part, (name,), names, "-", values, ISOMETRIC, verdict))
     for group in group_by_others(choose_folded(outcomes), "surface"):
         for surface, shape in (("paraboloid", "dome"), ("arch", "arch")):
@@ -86,54 +88,66 @@ MEASURES = {
     "folded": "reach it without shear of panels",
 }
 """What counts as folded: lying on the target without turned folds; and unsheared beside that."""
+KINDS = {"quadrilaterals": "some strengths only", "triangles": "all strengths"}
+READING = (
+    "One governing force is needed where some pairs of strengths (attraction to the target, "
+    "flatness of panels) reach the target and others do not; a panel is sheared where a diagonal "
+    "strains by more than a tenth."
+)
 
 
 def judge_strengths(kinematics: Mapping[str, Any]) -> Claim:
-    """C3: self-stresses of rigid quadrilaterals; which strengths fold them, and triangles."""
-    findings = []
+    """C3: self-stresses of rigid quadrilaterals; which strengths fold them, and triangles.
+
+    Both engines have to agree; a note gives the verdict of each by itself.
+    """
+    stresses = []
     for sheet in kinematics["sheets"]:
         counts = [sheet[name]["self_stresses"] for name in ("rigid_panels", "bending_panels")]
         name = f"Miura sheet {sheet['zigzag']}x{sheet['strip']}"
         verdict = HOLDS if counts[0] > 0 and counts[1] == 0 else FAILS
         quantity = "self-stresses: quadrilaterals, triangles"
         values = tuple(counts)
-        findings.append(Finding(CONSTRAINED, (name,), quantity, "-", values, 0.0, verdict))
-    parts = {}
-    for measure, words in MEASURES.items():
-        found = _find_strengths(kinematics["strengths"], measure, words)
-        parts[measure] = tuple(dict.fromkeys(finding.part for finding in found))
-        findings += found
-    return Claim("C3", findings, open=parts["folded"])
+        stresses.append(Finding(CONSTRAINED, (name,), quantity, "-", values, 0.0, verdict))
+    aside = tuple(_name_part(kind, "folded") for kind in KINDS)
+    engines: dict[str, list[Mapping[str, Any]]] = {}
+    for row in kinematics["strengths"]:
+        engines.setdefault(say(row["engine"]), []).append(row)
+    shares, notes = [], [READING]
+    for engine, rows in engines.items():
+        found = _find_strengths(engine, rows)
+        shares += found
+        alone, _ = Claim("C3", [*stresses, *found], open=aside).judge()
+        most = max(row["iterations"] for row in rows)
+        words = f"{say(alone)}, from {len(rows)} foldings of at most {most} iterations"
+        notes.append(f"By {engine} alone: {words}.")
+    return Claim("C3", [*stresses, *shares], open=aside, notes=tuple(notes))
 
 
-def _find_strengths(rows: Sequence[Mapping[str, Any]], measure: str, words: str) -> list[Finding]:
-    """Return the share of the strengths that fold each mesh on each surface by each engine."""
+def _name_part(kind: str, measure: str) -> str:
+    return f"{kind} {MEASURES[measure]} at {KINDS[kind]}"
+
+
+def _find_strengths(engine: str, rows: Sequence[Mapping[str, Any]]) -> list[Finding]:
+    """Return the share of the strengths by which an engine folds each mesh on each surface."""
     found = []
-    cases = dict.fromkeys((row["surface"], row["engine"].replace("_", " ")) for row in rows)
-    for kind, strengths in (
-        ("quadrilaterals", "some strengths only"),
-        ("triangles", "all strengths"),
-    ):
-        for surface, engine in cases:
-            folded = [
-                row[measure]
-                for row in rows
-                if (row["surface"], row["engine"].replace("_", " ")) == (surface, engine)
-                and row["panels"] == kind
-            ]
-            share = sum(folded) / len(folded)
-            true = share == 1 if kind == "triangles" else 0 < share < 1
-            part = f"{kind} {words} at {strengths}"
-            name = f"{kind}, {surface}, {engine}, {len(folded)} settings"
-            found.append(state_fact(part, name, "share of settings", share, 1.0, true))
+    surfaces = dict.fromkeys(row["surface"] for row in rows)
+    for measure, kind, surface in product(MEASURES, KINDS, surfaces):
+        folded = [
+            row[measure] for row in rows if (row["panels"], row["surface"]) == (kind, surface)
+        ]
+        share = sum(folded) / len(folded)
+        true = share == 1 if kind == "triangles" else 0 < share < 1
+        name = f"{kind}, {surface}, {engine}, {len(folded)} settings"
+        part = _name_part(kind, measure)
+        found.append(state_fact(part, name, "share of settings", share, 1.0, true))
     return found
 
 
 def judge_foldability(outcomes: Sequence[Outcome]) -> Claim:
     """C14: planarity, strain, sum of angles and Kawasaki's sum of every folded design.
 
-    The designs folded as in the paper decide; those of the modes exact and rigid show what can be
-    had on the same targets, and stand beside the verdict.
+    The designs folded as in the paper decide; the other modes stand beside the verdict.
     """
     findings, aside = [], []
     for one in choose(outcomes, pattern="miura"):
@@ -146,4 +160,11 @@ def judge_foldability(outcomes: Sequence[Outcome]) -> Claim:
             findings.append(state_fact(part, one.name, worst, value, RESPECTED_LIMIT, true))
             if part != name and part not in aside:
                 aside.append(part)
-    return Claim("C14", findings, open=tuple(aside))
+    return Claim("C14", findings, open=tuple(aside), notes=(MODES,))
+
+
+MODES = (
+    f"Respected means up to {RESPECTED_LIMIT:g} all over the sheet: planarity of panels and strain "
+    "of edges, sum of angles, Kawasaki's sum. Designs folded as in the paper, by forces that trade "
+    "strain against the target, decide; the modes exact and rigid show what the same targets allow."
+)

@@ -115,7 +115,8 @@ class Comparer:
     ) -> Finding:
         """Find whether a quantity of `greater` exceeds that of `lesser` beyond uncertainty."""
         names = greater.name, lesser.name
-        return self._compare(part, names, quantity, [(greater, quantity), (lesser, quantity)], strict)
+        both = [(greater, quantity), (lesser, quantity)]
+        return self._compare(part, names, quantity, both, strict)
 
     def compare_within(self, part: str, outcome: Outcome, greater: str, lesser: str) -> Finding:
         """Find whether one quantity of a design exceeds another of the same unit."""

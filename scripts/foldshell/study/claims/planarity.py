@@ -11,13 +11,21 @@ from foldshell.study.correlation import linear_correlation, rank_correlation
 STRONG, WEAK = 0.5, 0.3
 """Sizes of a correlation from which it is called strong, and below which weak."""
 
+RULE = (
+    f"The verdict is on Spearman's correlations within designs: holds from {STRONG:g} in every "
+    f"design and of one sign, fails below {WEAK:g} in every design, by absolute value; else mixed."
+)
+SIZED = (
+    "Utilization is that of the sized designs. Sizing gives each panel its own thickness, which "
+    "evens utilization out, so a correlation is of what sizing leaves."
+)
+
 
 def describe_planarity(outcomes: Sequence[Outcome]) -> dict[str, Any]:
     """Return Spearman's and Pearson's correlation of planarity and mean utilization of panels.
 
-    Of each design, of all panels pooled, and pooled by surface. Within a design thickness, loads
-    and supports are one; pooled numbers mix designs of different utilization. The sign of the
-    designs' correlations says whether planarity as such matters.
+    Of each design, of all panels pooled, and pooled by surface. Within a design loads and supports
+    are one; pooled numbers mix designs of different utilization.
     """
     designs = [one for one in choose_folded(outcomes) if one.panels is not None]
     each = {one.name: _correlate(one.panels) for one in designs}
@@ -42,10 +50,9 @@ def describe_planarity(outcomes: Sequence[Outcome]) -> dict[str, Any]:
         "designs": sorted(each),
         "uncertainty": {
             "largest_relative": {},
-            "method": f"holds above a rank correlation of {STRONG:g} in every design, fails below "
-            f"{WEAK:g} in every design, by absolute value; else mixed",
+            "method": "none is estimated for correlations",
         },
-        "notes": [],
+        "notes": [RULE, SIZED],
     }
 
 

@@ -8,6 +8,7 @@ from foldshell.study.claims import limits, structure
 from foldshell.study.claims.finding import UNTOLD
 from foldshell.study.claims.outcome import Comparer, Outcome
 from foldshell.study.claims.statement import Claim
+from foldshell.study.claims.words import say
 
 BASE = "base"
 Judgement = Callable[[Sequence[Outcome], Comparer], Claim]
@@ -86,21 +87,21 @@ def describe_dependence(
     if claim.key in ("C1", "C2", "C3", "C14"):
         return "No setting of the sizing loop enters."
     if runs is None:
-        words.append(f"The runs with other settings hold nothing of this claim{_spread(variants)}.")
+        words.append(f"No run with other settings answers this claim{_spread(variants)}.")
     else:
         base, changes = runs["verdicts"][BASE]["verdict"], runs["changes"]
         count = len(runs["designs"])
-        words.append(f"On the {count} designs run with other settings: {_say(base)}")
+        words.append(f"On the {count} designs run with other settings: {say(base)}")
         same = [name for name in runs["verdicts"] if name != BASE and name not in changes]
         if same:
             words[-1] += f", with the same verdicts of all parts for {', '.join(same)}"
         changed = [
-            f"with {name} " + ", ".join(f"{part}: {_say(v)}" for part, v in found.items())
+            f"with {name} " + ", ".join(f"{part}: {say(v)}" for part, v in found.items())
             for name, found in changes.items()
         ]
         words[-1] += f"; {'; '.join(changed)}." if changed else "."
     if equal is not None and equal["verdict"] != UNTOLD:
-        parts = ", ".join(f"{part}: {_say(v)}" for part, v in equal["parts"].items())
+        parts = ", ".join(f"{part}: {say(v)}" for part, v in equal["parts"].items())
         words.append(f"At one thickness for all panels, before any sizing: {parts}.")
     return " ".join(words)
 
@@ -114,8 +115,4 @@ def _spread(variants: Mapping[str, Sequence[Outcome]]) -> str:
         if base and name != BASE
     }
     shown = ", ".join(f"{100 * value:.3g} % with {name}" for name, value in changes.items())
-    return f"; volumes change there by up to {shown}" if shown else ""
-
-
-def _say(verdict: str) -> str:
-    return verdict.replace("_", " ")
+    return f"; volumes of the designs run change by up to {shown}" if shown else ""

@@ -78,8 +78,7 @@ def describe_claim(claim: Claim) -> dict[str, Any]:
         "id": claim.key,
         "claim": STATEMENTS[claim.key],
         "verdict": verdict,
-        "numbers": {"parts": parts, "findings": findings}
-        | dict(claim.numbers),
+        "numbers": {"parts": parts, "findings": findings} | dict(claim.numbers),
         "designs": sorted({name for f in claim.findings for name in f.designs}),
         "uncertainty": describe_uncertainty(claim),
         "notes": list(claim.notes),
@@ -94,13 +93,14 @@ def describe_uncertainty(claim: Claim) -> dict[str, Any]:
         if finding.uncertainty and known and max(known):
             relative = finding.uncertainty / max(known)
             largest[finding.quantity] = max(largest.get(finding.quantity, 0.0), relative)
-    method = claim.method or (METHOD if largest else EXACT)
+    volumes = VOLUMES if any(name.startswith("volume") for name in largest) else ""
+    method = claim.method or (METHOD + volumes if largest else EXACT)
     return {"largest_relative": largest, "method": method}
 
 
-METHOD = (
-    "mesh error and cross-check difference of both designs, root of the sum of squares; "
-    "volumes with the larger of those of displacement and utilization and the change of volume "
+METHOD = "mesh error and cross-check difference of both numbers, root of the sum of squares"
+VOLUMES = (
+    "; volumes with the larger of those of displacement and utilization and the change of volume "
     "that ends the loop, on the share of panels not at a bound"
 )
 EXACT = "counts, geometry and closed forms: no mesh error enters"

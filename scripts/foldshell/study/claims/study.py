@@ -89,9 +89,12 @@ def _describe_states(outcomes: Sequence[Outcome]) -> str:
     """Say how many designs hang on the least thickness alone, and which did not settle."""
     names = {state: [o.name for o in outcomes if o.values["state"] == state]
              for state in ("at_minimum_thickness", "not_converged", "unstable")}  # fmt: skip
+    thin = len(names["at_minimum_thickness"])
     words = (
-        f" {len(names['at_minimum_thickness'])} of {len(outcomes)} designs stand at the least "
-        "thickness in every panel, which alone then sets volume and utilization."
+        f" {thin} of {len(outcomes)} designs stand at the least thickness in every panel, which "
+        "alone then sets volume and utilization."
+        if thin
+        else f" None of {len(outcomes)} designs stands at the least thickness in every panel."
     )
     unsettled = names["not_converged"] + names["unstable"]
     if unsettled:

@@ -8,8 +8,10 @@ from foldshell.study.claims.outcome import QUANTITIES
 HEAD = """# Claims
 
 Each claim of Tsiamis, Oliva, Calvano (2018) judged by the numbers of this study. A difference
-within its uncertainty cannot be told. Cells show the two numbers, their uncertainty and the
-finding; in a name `a|b` are the first and the second design. docs/study.md explains the method.
+within its uncertainty cannot be told. Cells show the two numbers, the uncertainty of their
+difference and the finding; in a name `a|b` are the first and the second design. The uncertainty
+is that of numbers under the settings of the study; what other settings change stands under
+Sensitivity, by names that the last section explains. docs/study.md explains the method.
 """
 
 
@@ -31,11 +33,11 @@ def write_section(claim: Mapping[str, Any]) -> str:
         lines += [write_correlations(numbers)]
     if "held_by" in numbers:
         held = ", ".join(f"{name} {count}" for name, count in numbers["held_by"].items())
-        lines += [f"What holds the designs (some several): {held}.", ""]
+        lines += [f"Limits that designs stand at, one perhaps at several: {held}.", ""]
     if numbers.get("flat"):
         lines += [write_flat(numbers["flat"])]
     largest = claim["uncertainty"]["largest_relative"]
-    shown = ", ".join(f"{name} {100 * value:.3g} %" for name, value in largest.items())
+    shown = "; ".join(f"{name_quantity(k)} {100 * value:.3g} %" for k, value in largest.items())
     method = claim["uncertainty"]["method"]
     lines += [f"Uncertainty: {method}" + (f". Largest: {shown}." if shown else "."), ""]
     if claim.get("sensitivity"):
@@ -59,31 +61,29 @@ def write_parts(parts: Iterable[Mapping[str, Any]]) -> str:
 def write_findings(findings: Sequence[Mapping[str, Any]]) -> list[str]:
     """Return tables with a row a design or pair and a column a part.
 
-    Rows that have the same parts share a table.
+    Rows that have the same columns share a table: the same parts, quantities and limits.
     """
     rows: dict[frozenset, dict[str, Mapping[str, Any]]] = {}
     for finding in findings:
         rows.setdefault(frozenset(finding["designs"]), {})[finding["part"]] = finding
-    tables: dict[tuple, list[dict[str, Mapping[str, Any]]]] = {}
+    tables: dict[tuple[str, ...], list[list[str]]] = {}
     for row in rows.values():
-        tables.setdefault(tuple(row), []).append(row)
-    return [_write_rows(members) for members in tables.values()]
-
-
-def _write_rows(rows: Sequence[Mapping[str, Mapping[str, Any]]]) -> str:
-    header = [_describe_column(finding) for finding in rows[0].values()]
-    body = []
-    for row in rows:
+        columns = tuple(_describe_column(finding) for finding in row.values())
         order = next(iter(row.values()))["designs"]
-        body.append([join_names(order), *(_write_cell(f, order) for f in row.values())])
-    return make_table(["design", *header], body)
+        cells = [join_names(order), *(_write_cell(f, order) for f in row.values())]
+        tables.setdefault(columns, []).append(cells)
+    return [make_table(["design", *columns], body) for columns, body in tables.items()]
 
 
 def _describe_column(finding: Mapping[str, Any]) -> str:
     unit, factor = _unit(finding)
-    quantity = finding["quantity"].replace("_", " ").replace(", ", " / ")
     limit = f", limit {show(finding['values'][1], factor)}" if _has_limit(finding) else ""
-    return f"{finding['part']}: {quantity} [{unit}]{limit}"
+    return f"{finding['part']}: {name_quantity(finding['quantity'])} [{unit}]{limit}"
+
+
+def name_quantity(quantity: str) -> str:
+    """Return one or two keys of measures in words."""
+    return quantity.removesuffix("_rad").replace("_", " ").replace(", ", " / ")
 
 
 def _has_limit(finding: Mapping[str, Any]) -> bool:
