@@ -22,7 +22,7 @@ class EdgeBeam:
 
 
 def make_edge_beam(depth: float, thickness: float) -> EdgeBeam | None:
-    """Return the strip, or None where both sizes are 0."""
+    """Return the strip, or None where a size is 0; the table of designs takes both or none."""
     return EdgeBeam(depth, thickness) if depth and thickness else None
 
 

@@ -85,13 +85,13 @@ def judge_iteration(now: IterationState, rule: StopRule) -> Verdict:
 
 
 def evaluate_criteria(now: IterationState, rule: StopRule) -> dict[str, dict[str, object]]:
-    """Return {name: value, limit, met} of Table 3 and of the relative change of volume."""
+    """Return {name: value, limit, met} of Table 3, of the relative change of volume, and of the
+    strips where there is an edge beam."""
     highest = float(now.utilization.max())
     limit = now.span / rule.displacement_limit_span_over
     change = None if now.previous_volume is None else abs(now.volume - now.previous_volume)
     relative = None if change is None else change / now.previous_volume
-    beam = {"edge_beam_utilization": _below(now.edge_beam, rule.utilization_max, closed=True)}
-    return {
+    criteria = {
         "utilization_max": _below(highest, rule.utilization_max, closed=True),
         "utilization_min": {
             "value": highest,
@@ -101,8 +101,10 @@ def evaluate_criteria(now: IterationState, rule: StopRule) -> dict[str, dict[str
         "displacement_vertical_m": _below(now.displacement, limit),
         "volume_change_m3": _below(change, rule.volume_change_max),
         "volume_change_relative": _below(relative, rule.volume_change_max_relative),
-        **(beam if now.edge_beam is not None else {}),
     }
+    if now.edge_beam is not None:
+        criteria["edge_beam_utilization"] = _below(now.edge_beam, rule.utilization_max, closed=True)
+    return criteria
 
 
 def _below(value: float | None, limit: float, closed: bool = False) -> dict[str, object]:

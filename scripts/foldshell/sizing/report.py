@@ -7,7 +7,7 @@ import numpy as np
 
 from foldshell.sizing.gather import Iterations
 from foldshell.workbook.design import DesignReport
-from foldshell.workbook.history import find_least_factor
+from foldshell.workbook.history import EDGE_BEAM_KEYS, find_least_factor
 from foldshell.workbook.panels import make_panel_grid
 
 SOURCES = (
@@ -31,11 +31,7 @@ HEADLINES = (
     "dofs",
     "mesh_subdivisions",
 )
-EDGE_BEAM = (
-    "edge_beam_volume_m3",
-    "edge_beam_utilization_max",
-    "edge_beam_utilization_panel_mean_max",
-)
+EDGE_BEAM = ("edge_beam_volume_m3", *EDGE_BEAM_KEYS)
 
 
 def make_design_report(

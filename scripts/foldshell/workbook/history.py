@@ -41,6 +41,11 @@ _CHARTS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     ("Least buckling factor", "-", ("buckling_factor_min",)),
 )
 _COLOURS = ("#1D4ED8", "#B45309", "#6B7280")
+_FONT = {"name": "Arial", "size": 9, "bold": False}
+_LIMIT_LINE = {
+    "line": {"color": "#9F1239", "width": 1.5, "dash_type": "dash"},
+    "marker": {"type": "none"},
+}
 
 
 def find_least_factor(analysis: Mapping[str, Any]) -> float | None:
@@ -137,42 +142,46 @@ def _make_chart(
     book: Any, title: str, unit: str, keys: Sequence[str], span: tuple[int, int]
 ) -> Any:
     """Return straight lines with markers over the iterations, header and units left out."""
-    font = {"name": "Arial", "size": 9, "bold": False}
     chart = book.add_chart({"type": "scatter", "subtype": "straight_with_markers"})
     first, last = span
     for key, colour in zip(keys, _COLOURS, strict=False):
         column = HISTORY_KEYS.index(key)
-        limit = key.endswith("_limit_m")
-        line = {"color": "#9F1239" if limit else colour, "width": 1.5}
-        line |= {"dash_type": "dash"} if limit else {}
-        marker: dict[str, Any] = {"type": "none"}
-        if not limit:
-            fill = {"color": colour}
-            marker = {"type": "circle", "size": 5, "fill": fill, "border": fill}
         chart.add_series(
             {
                 "name": ["history", 0, column],
                 "categories": ["history", first, 0, last, 0],
                 "values": ["history", first, column, last, column],
-                "line": line,
-                "marker": marker,
+                **(_LIMIT_LINE if key.endswith("_limit_m") else _style_line(colour)),
             }
         )
-    chart.set_title({"name": f"{title} [{unit}]", "name_font": {**font, "size": 11, "bold": True}})
-    whole = max(last - first, 1)
-    chart.set_x_axis(
-        {
-            "name": "iteration",
-            "name_font": font,
-            "num_font": font,
-            "min": 0,
-            "max": whole,
-            "major_unit": max(1, whole // 10),
-            "num_format": "0",
-        }
-    )
+    heading = {**_FONT, "size": 11, "bold": True}
+    chart.set_title({"name": f"{title} [{unit}]", "name_font": heading})
+    chart.set_x_axis(_make_iteration_axis(last - first))
     grid = {"visible": True, "line": {"color": "#E5E7EB"}}
-    chart.set_y_axis({"num_font": font, "min": 0, "num_format": "General", "major_gridlines": grid})
-    chart.set_legend({"position": "bottom", "font": font} if len(keys) > 1 else {"none": True})
+    axis = {"num_font": _FONT, "min": 0, "num_format": "General", "major_gridlines": grid}
+    chart.set_y_axis(axis)
+    chart.set_legend({"position": "bottom", "font": _FONT} if len(keys) > 1 else {"none": True})
     chart.set_size({"width": 500, "height": 320})
     return chart
+
+
+def _style_line(colour: str) -> dict[str, Any]:
+    fill = {"color": colour}
+    return {
+        "line": {"color": colour, "width": 1.5},
+        "marker": {"type": "circle", "size": 5, "fill": fill, "border": fill},
+    }
+
+
+def _make_iteration_axis(whole: int) -> dict[str, Any]:
+    """Return an axis from 0 to the last iteration, with ten marks or so at whole numbers."""
+    whole = max(whole, 1)
+    return {
+        "name": "iteration",
+        "name_font": _FONT,
+        "num_font": _FONT,
+        "min": 0,
+        "max": whole,
+        "major_unit": max(1, whole // 10),
+        "num_format": "0",
+    }

@@ -147,7 +147,8 @@ def test_supports_stay_those_of_the_plain_design():
 
 
 def test_an_edge_beam_needs_both_sizes():
-    assert make_edge_beam(0.0, 0.0) is None
+    for sizes in ((0.0, 0.0), (0.4, 0.0), (0.0, 0.15)):
+        assert make_edge_beam(*sizes) is None
     assert make_edge_beam(0.4, 0.15) == BEAM
 
 

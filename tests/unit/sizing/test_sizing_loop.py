@@ -193,20 +193,12 @@ def test_gathering_removes_what_a_kill_left_half_written(tmp_path):
     assert whole.exists() and not half.exists()
 
 
-def judged(**changes) -> IterationState:
-    calm = np.full(3, 0.8)
-    return replace(
-        IterationState(5, "ok", "", 0.1 * calm, calm, 0.01, 28.0, 10.0, 10.0, 0.2 * calm, 0),
-        **changes,
-    )
-
-
 def test_an_overstressed_edge_beam_keeps_the_loop_open():
     """Its criterion stands beside those of Table 3, and only where there is an edge beam."""
-    assert judge_iteration(judged(), STOP).verdict == "converged"
-    fine = judge_iteration(judged(edge_beam=1.0), STOP)
+    assert judge_iteration(iteration(), STOP).verdict == "converged"
+    fine = judge_iteration(iteration(edge_beam=1.0), STOP)
     assert fine.verdict == "converged" and fine.criteria["edge_beam_utilization"]["met"]
-    above = judge_iteration(judged(edge_beam=1.2), STOP)
+    above = judge_iteration(iteration(edge_beam=1.2), STOP)
     assert above.verdict == "continue" and "edge_beam_utilization" in above.reason
 
 
