@@ -5,7 +5,7 @@ from pathlib import Path
 from typing import Any
 
 from foldshell.exchange.design_vtu import write_design_vtu, write_lines_vtu
-from foldshell.figures.drafts import Elasticity, Limits, make_subject
+from foldshell.figures.drafts import subject_of_design
 from foldshell.figures.layout import save_png
 from foldshell.figures.pictures import draw_design
 from foldshell.figures.state import read_state
@@ -31,12 +31,10 @@ def main(
     `settings` are the parameters of stages `size` and `figures`, report_path is final.json."""
     files = mesh_path, folded_path, final_path, report_path
     state = read_state(design, *files, settings["combinations"], classes_path)
-    material, sizing, figures = (settings[name] for name in ("material", "sizing", "figures"))
-    elasticity = Elasticity(material["youngs_modulus"], material["poissons_ratio"])
-    write_design_vtu(vtu_path, state, elasticity)
-    limits = Limits(sizing["utilization_max"], sizing["displacement_limit_span_over"])
-    subject = make_subject(state, span_m, limits, elasticity, pattern != "smooth")
+    subject = subject_of_design(state, settings, span_m, pattern)
+    write_design_vtu(vtu_path, state, subject.elasticity)
     write_lines_vtu(lines_path, subject)
+    figures = settings["figures"]
     size = (figures["width_px"], figures["height_px"])
     for name, picture in draw_design(subject, size, tuple(pictures)).items():
         save_png(pictures[name], picture)

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from foldshell.figures.drafts import Elasticity, Limits, make_subject
+from foldshell.figures.drafts import subject_of_design
 from foldshell.figures.state import read_state
 from foldshell.report.page import write_design_page
 from foldshell.report.sections import read_files
@@ -37,14 +37,10 @@ def main(
     state_paths = [paths[name] for name in ARRAYS]
     combinations, name = settings["combinations"], design["design"]
     state = read_state(name, *state_paths, combinations, paths["class_arrays"])
-    sizing, material = settings["sizing"], settings["material"]
-    limits = Limits(sizing["utilization_max"], sizing["displacement_limit_span_over"])
-    elasticity = Elasticity(material["youngs_modulus"], material["poissons_ratio"])
-    subject = make_subject(
-        state, design["span_m"], limits, elasticity, design["pattern"] != "smooth"
-    )
+    subject = subject_of_design(state, settings, design["span_m"], design["pattern"])
     files = read_files(design, paths)
-    page = write_design_page(files, make_view(subject), pictures, limits.utilization_max)
+    limit = subject.limits.utilization_max
+    page = write_design_page(files, make_view(subject), pictures, limit)
     with atomic_path(page_path) as temporary:
         temporary.write_text(page, encoding="utf-8")
 

@@ -6,7 +6,7 @@ from typing import Any
 
 from foldshell.figures.charts import draw_axes_comparison, draw_comparison, save_figure
 from foldshell.figures.contact_sheet import draw_sheets, make_tile
-from foldshell.figures.drafts import Elasticity, Limits, make_subject
+from foldshell.figures.drafts import read_limits, subject_of_design
 from foldshell.figures.layout import save_png
 from foldshell.figures.planarity_chart import draw_planarity_chart
 from foldshell.figures.state import read_state
@@ -29,16 +29,14 @@ def main(
 
     `results` has a folder a design; `settings` are the plain parameters of stage `size`.
     """
-    sizing, material = settings["sizing"], settings["material"]
-    limits = Limits(sizing["utilization_max"], sizing["displacement_limit_span_over"])
-    elasticity = Elasticity(material["youngs_modulus"], material["poissons_ratio"])
+    limits = read_limits(settings)
     designs, tiles = [], []
     for design in read_summary(summary_path):
         paths = [Path(results, design.name, file) for file in FILES]
         state = read_state(design.name, *paths, settings["combinations"])
         designs.append(add_fields(design, state))
-        span, folded = design.number["span_m"], design.pattern != "smooth"
-        tiles.append(make_tile(make_subject(state, span, limits, elasticity, folded)))
+        span = design.number["span_m"]
+        tiles.append(make_tile(subject_of_design(state, settings, span, design.pattern)))
     for name, comparison in COMPARISONS.items():
         figure = draw_comparison(designs, comparison, limits.displacement_limit_span_over)
         save_figure(figure, charts[name])

@@ -83,6 +83,21 @@ def make_subject(
     return Subject(state, creases, span, limits, elasticity)
 
 
+def read_limits(settings: Mapping[str, Any]) -> Limits:
+    """Return the limits in the plain settings of stage `size`."""
+    sizing = settings["sizing"]
+    return Limits(sizing["utilization_max"], sizing["displacement_limit_span_over"])
+
+
+def subject_of_design(
+    state: DesignState, settings: Mapping[str, Any], span: float, pattern: str
+) -> Subject:
+    """Return the subject of a design with the plain settings of stage `size`; span m."""
+    material = settings["material"]
+    elasticity = Elasticity(material["youngs_modulus"], material["poissons_ratio"])
+    return make_subject(state, span, read_limits(settings), elasticity, pattern != "smooth")
+
+
 def draft_field(
     subject: Subject,
     title: str,

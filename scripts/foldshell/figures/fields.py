@@ -40,6 +40,15 @@ def choose_strength(state: DesignState) -> str:
     return state.strength[int(area.argmax())]
 
 
+def choose_buckling(state: DesignState) -> tuple[str, float] | None:
+    """Return the combination with the least buckling factor and that factor, None without modes."""
+    factors = state.report.get("buckling_factor") or {}
+    known = {name: value for name, value in factors.items() if value is not None}
+    if "buckling_modes" not in state.final or not known:
+        return None
+    return min(known.items(), key=lambda item: item[1])
+
+
 def membrane_force_coefficients(
     state: DesignState, combination: str, youngs_modulus: float, poissons_ratio: float
 ) -> tuple[np.ndarray, ElementGeometry]:

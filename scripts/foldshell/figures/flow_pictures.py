@@ -23,7 +23,7 @@ from foldshell.figures.drafts import (
     lines_before,
     support_marks,
 )
-from foldshell.figures.fields import cell_area
+from foldshell.figures.fields import cell_area, choose_buckling
 from foldshell.figures.force_lines import split_lines
 from foldshell.figures.isolines import find_isolines, panel_node_values
 from foldshell.figures.layout import INK, SOFT, Caption, Key
@@ -108,13 +108,13 @@ def draft_isolines(subject: Subject) -> Draft:
 def draft_buckling(subject: Subject) -> Draft:
     """The buckling mode of the least factor, drawn large."""
     state = subject.state
-    factors = {k: v for k, v in state.report.get("buckling_factor", {}).items() if v is not None}
-    if "buckling_modes" not in state.final or not factors:
+    least = choose_buckling(state)
+    if least is None:
         return draft_nothing(subject, "Buckling mode", "no buckling mode")
-    name = min(factors, key=factors.get)
+    name, factor = least
     mode = state.buckling_mode(name)
     before = lines_before(subject)
-    facts = f"{name}: buckling factor {factors[name]:.2f}; the size of the mode is arbitrary"
+    facts = f"{name}: buckling factor {factor:.2f}; the size of the mode is arbitrary"
     values = np.linalg.norm(mode, axis=1)
     draft = draft_field(
         subject, "Buckling mode", facts, "translation / largest [-]", values,
