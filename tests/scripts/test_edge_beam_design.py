@@ -14,6 +14,10 @@ import mesh
 import resize
 import size
 import start
+from foldshell.figures.drafts import subject_of_design
+from foldshell.figures.state import read_state
+from foldshell.report.arrays import pack_arrays, unpack_arrays
+from foldshell.report.view import make_view
 from foldshell.shell.mesh_files import read_mesh
 from foldshell.sizing.case import open_case
 from foldshell.sizing.iteration import IterationTask
@@ -130,6 +134,28 @@ def test_pictures_and_fields_show_the_strips(folder):
     assert (fields["thickness"][strips] == BEAM[1]).all()
     assert (fields["thickness_class"][strips] == 0).all()
     assert (fields["class_thickness"][strips] == BEAM[1]).all()
+
+
+def test_page_shows_the_strips(folder):
+    """Thickness and utilization of panels and strips; planarity and class of panels only."""
+    loop = folder / "sizing"
+    inputs = [folder / "mesh.npz", folder / "folded.npz", loop / "final.npz", loop / "final.json"]
+    state = read_state("small", *inputs, stage("size")["combinations"], loop / "classes.npz")
+    view = make_view(subject_of_design(state, stage("size"), SPAN, "miura"))
+    arrays = unpack_arrays(*pack_arrays(view.arrays))
+    strips = slice(PANELS, PANELS + STRIPS)
+    known = read_arrays(loop / "final.npz")["edge_beam_utilization_panel_mean"]
+    assert known.shape == (STRIPS,)
+    half_step = 1e-5 * max(state.panel_utilization)
+    for name in ("panel_utilization", "field_utilization_mean"):
+        assert arrays[name][strips] == pytest.approx(known, abs=half_step)
+    assert arrays["panel_thickness"][strips] == pytest.approx(BEAM[1], abs=1e-6)
+    assert arrays["field_thickness"][strips] == pytest.approx(1e3 * BEAM[1], abs=1e-3)
+    for name in ("field_planarity", "field_class"):
+        assert np.isnan(arrays[name][strips]).all()
+        assert np.isfinite(arrays[name][:PANELS]).all()
+    assert len(arrays["panel_zigzag"]) == PANELS
+    assert arrays["panel"].max() == PANELS + STRIPS - 1
 
 
 def test_gradients_of_the_constraints_leave_the_strips_out(folder):

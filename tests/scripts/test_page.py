@@ -83,18 +83,37 @@ def test_same_files_same_bytes(tmp_path):
     assert run(tmp_path / "a") == run(tmp_path / "b")
 
 
+def browse(page_path, *options):
+    """Return what Chromium has made of a page."""
+    command = [
+        CHROMIUM, "--headless", "--no-sandbox", f"--user-data-dir={page_path.parent / 'browser'}",
+        "--virtual-time-budget=20000", "--dump-dom", *options,
+        f"{page_path.as_uri()}#field=utilization&deform=50&panel=7",
+    ]  # fmt: skip
+    return subprocess.run(command, capture_output=True, text=True, timeout=180, check=True).stdout
+
+
 @pytest.mark.slow
 @pytest.mark.skipif(CHROMIUM is None, reason="no Chromium")
 @pytest.mark.parametrize("width", [600, 1400])
 def test_page_draws_in_a_browser(tmp_path, width):
-    """The 3D view says it is ready, and the largest field can be chosen by the address."""
+    """The 3D view says it is ready; field, deformation and panel are those of the address."""
     run(tmp_path)
-    command = [
-        CHROMIUM, "--headless", "--no-sandbox", "--use-angle=swiftshader",
-        "--enable-unsafe-swiftshader", f"--user-data-dir={tmp_path / 'browser'}",
-        f"--window-size={width},900", "--virtual-time-budget=20000", "--dump-dom",
-        f"{(tmp_path / 'page.html').as_uri()}#field=utilization&panel=7",
-    ]  # fmt: skip
-    done = subprocess.run(command, capture_output=True, text=True, timeout=180, check=True)
-    assert 'data-state="ready"' in done.stdout
-    assert "panel 7 · zigzag 1 · strip 2" in done.stdout
+    software = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+    found = browse(tmp_path / "page.html", *software, f"--window-size={width},900")
+    assert 'data-state="ready"' in found
+    assert '<p id="quantity">utilization [-], largest of S1 to S2</p>' in found
+    assert '<span id="factor">drawn × ' in found
+    assert "panel 7 · zigzag 1 · strip 2" in found
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium")
+def test_page_without_webgl_says_so(tmp_path):
+    """Tables and pictures stand where no 3D view can be made."""
+    run(tmp_path)
+    found = browse(tmp_path / "page.html", "--disable-3d-apis")
+    assert 'data-state="no-view"' in found
+    assert "No 3D view: this browser offers no WebGL 2." in found
+    assert "all criteria are met" in found
+    assert "data:image/webp;base64," in found

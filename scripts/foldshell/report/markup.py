@@ -42,7 +42,7 @@ def format_number(value: Any, digits: int = 4) -> str:
         return "–"
     if isinstance(value, bool):
         return "yes" if value else "no"
-    if isinstance(value, int) or not isinstance(value, float):
+    if not isinstance(value, float):
         return str(value)
     if not math.isfinite(value):
         return "–"
@@ -62,8 +62,10 @@ def make_table(header: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
         for name, n in zip(header, numeric, strict=True)
     )
     body = "".join("<tr>" + "".join(map(_make_cell, row, numeric)) + "</tr>\n" for row in rows)
-    head = f"<thead><tr>{head}</tr></thead>" if any(header) else ""
-    return f'<div class="scroll"><table>{head}<tbody>\n{body}</tbody></table></div>'
+    return (
+        f'<div class="scroll"><table><thead><tr>{head}</tr></thead>'
+        f"<tbody>\n{body}</tbody></table></div>"
+    )
 
 
 def _is_number(value: Any) -> bool:

@@ -9,8 +9,8 @@ from typing import Any
 from foldshell.report.history_chart import Series, draw_history
 from foldshell.report.markup import Cell, escape, format_number, make_table
 from foldshell.study.files import read_json
+from foldshell.workbook.styles import GOOD_VERDICTS
 
-GOOD_VERDICTS = ("converged", "at_minimum_thickness")
 FOLDING = {
     "rms_over_span": "rms distance to the target / span [-]",
     "max_over_span": "largest distance to the target / span [-]",
@@ -40,8 +40,6 @@ HEADLINES = {
     "mesh_subdivisions": "cells along a facet edge",
     "dofs": "unknowns",
 }
-
-
 UNITS = {"m": "m", "m2": "m²", "m3": "m³", "knm": "kNm", "kn": "kN", "rad": "rad", "deg": "°"}
 
 
@@ -67,7 +65,7 @@ def read_files(design: Mapping[str, Any], paths: Mapping[str, str | Path]) -> De
 
 
 def write_verdict(files: DesignFiles) -> str:
-    """Return the box with verdict and reason, and what the design is."""
+    """Return the box with verdict, count of analyses and reason."""
     verdict = str(files.final.get("verdict"))
     kind = "good" if verdict in GOOD_VERDICTS else "bad"
     count = files.final.get("iteration", 0) + 1

@@ -7,10 +7,11 @@ from typing import Any
 
 from foldshell.report.markdown import render_markdown
 from foldshell.report.markup import escape, format_number, make_page, make_table
+from foldshell.workbook.styles import GOOD_VERDICTS
 
 FOLDER = Path(__file__).parent
-GOOD = {"converged": "good", "pass": "good", "not_converged": "bad", "unstable": "bad",
-        "failed": "bad", "crumpled": "bad", "not_reached": "bad", "fail": "bad"}  # fmt: skip
+JUDGED = ("state", "crosscheck")
+"""Columns whose words are good or bad."""
 COLUMNS: dict[str, tuple[str, float]] = {
     "state": ("verdict", 0),
     "surface": ("surface", 0),
@@ -69,9 +70,16 @@ def _write_row(row: Mapping[str, str], columns: Mapping[str, tuple[str, float]])
             value = factor * float(text)
             cells.append(f'<td class="number" data-value="{value!r}">{format_number(value)}</td>')
         else:
-            kind = GOOD.get(text, "number" if factor else "")
+            kind = _judge(text) if key in JUDGED else "number" if factor else ""
             cells.append(f'<td class="{kind}">{escape(text.replace("_", " ") or "–")}</td>')
     return f"<tr>{''.join(cells)}</tr>"
+
+
+def _judge(text: str) -> str:
+    """Return the class of a verdict; to have none is neither good nor bad."""
+    if text in ("", "not possible"):
+        return ""
+    return "good" if text in GOOD_VERDICTS else "bad"
 
 
 def write_markdown_page(title: str, text: str) -> str:

@@ -13,7 +13,7 @@ from foldshell.figures.colours import (
     make_scale,
 )
 from foldshell.figures.drafts import Subject
-from foldshell.figures.fields import choose_deflection
+from foldshell.figures.fields import choose_buckling, choose_deflection
 from foldshell.figures.pictures import RATIO_RANGE_MIN, exaggeration
 from foldshell.figures.state import DesignState
 from foldshell.shell.mesh import edge_polyline_nodes
@@ -21,7 +21,7 @@ from foldshell.shell.mesh import edge_polyline_nodes
 COLOURS = 64
 """Colours of each map that the page interpolates between."""
 MODE_SHARE = 0.06
-"""The largest translation of a buckling mode is drawn this share of the span long."""
+"""Share of the span of a buckling mode's largest translation, in the middle of the slider."""
 CELLS_MAX = 40_000
 """Sheets of more result cells are shown by their facets, so that the page stays small."""
 
@@ -100,35 +100,33 @@ def _make_grid(subject: Subject) -> _Grid:
 
 
 def _panel_values(state: DesignState) -> dict[str, np.ndarray]:
-    """Return what picking a panel shows, (P,); thickness (P + B,) with an edge beam's strips."""
+    """Return what picking a panel shows, (P,).
+
+    Thickness and utilization are (P + B,) with an edge beam's strips.
+    """
     quads = state.folded["quads"]
     values = {
-        "panel_thickness": _all_thicknesses(state),
+        "panel_thickness": state.panel_thickness,
         "panel_planarity": state.folded["planarity"],
         "panel_zigzag": state.folded["zigzag"][quads].min(axis=1),
         "panel_strip": state.folded["strip"][quads].min(axis=1),
     }
     if state.utilization is not None:
-        values["panel_utilization"] = state.final["utilization_panel_mean"]
+        values["panel_utilization"] = state.panel_utilization
     if state.classes:
         values["panel_class"] = state.classes["panel_class"]
     return values
 
 
-def _all_thicknesses(state: DesignState) -> np.ndarray:
-    return np.append(state.final["thickness"], state.shell.get("fixed_thickness", ()))
-
-
 def _pad(state: DesignState, values: np.ndarray) -> np.ndarray:
     """Return panel values (P,) with nan for the strips of an edge beam behind them, (P + B,)."""
-    strips = int(state.mesh.panel.max()) + 1 - len(values)
-    return np.append(values, np.full(strips, np.nan))
+    return np.append(values, np.full(len(state.strip_thickness), np.nan))
 
 
 def _fields(subject: Subject, grid: _Grid) -> dict[str, tuple]:
     """Return words with unit, values at panels, triangles or nodes, scale, options by name."""
     state = subject.state
-    thickness = 1e3 * _all_thicknesses(state)
+    thickness = 1e3 * state.panel_thickness
     scale = make_scale(thickness, "YlGnBu")
     fields = {"thickness": ("thickness [mm]", thickness, scale, {"at": "panel"})}
     if state.utilization is not None:
@@ -150,12 +148,12 @@ def _fields(subject: Subject, grid: _Grid) -> dict[str, tuple]:
 def _utilization_fields(subject: Subject, grid: _Grid) -> dict[str, tuple]:
     state, limit = subject.state, subject.limits.utilization_max
     combinations = f"{state.strength[0]} to {state.strength[-1]}"
-    means = _pad(state, state.final["utilization_panel_mean"])
     found = {}
     for name, words, values, at in (
         ("utilization", "utilization [-], largest of", grid.at_triangles(state.utilization),
          "triangle"),
-        ("utilization_mean", "panel mean of utilization [-], largest of", means, "panel"),
+        ("utilization_mean", "panel mean of utilization [-], largest of",
+         state.panel_utilization, "panel"),
     ):  # fmt: skip
         most = float(np.nanmax(values))
         above = f"up to {most:.2f}" if most > limit else "none"
@@ -194,18 +192,17 @@ def _describe_scale(scale: ColourScale) -> dict[str, Any]:
 
 
 def _shapes(subject: Subject, grid: _Grid) -> list[tuple[str, str, np.ndarray, float]]:
-    """Return name, words, translations (N, 3) m and the factor they are drawn with at most."""
+    """Return name, words, translations (N, 3) m and their factor in the middle of the slider."""
     state, shapes = subject.state, []
     if state.usable:
         name = choose_deflection(state)
         moved = grid.at_nodes(state.displacement_at_nodes(name))
         shapes.append(("displacement", f"displacement of {name}", moved,
                        exaggeration(moved, subject.span)))  # fmt: skip
-    factors = state.report.get("buckling_factor") or {}
-    factors = {name: value for name, value in factors.items() if value is not None}
-    if "buckling_modes" in state.final and factors:
-        name = min(factors, key=factors.get)
+    least = choose_buckling(state)
+    if least is not None:
+        name, factor = least
         mode = grid.at_nodes(state.buckling_mode(name))
-        words = f"buckling mode of {name}, factor {factors[name]:.2f}"
+        words = f"buckling mode of {name}, factor {factor:.2f}"
         shapes.append(("buckling", words, mode, MODE_SHARE * subject.span))
     return shapes

@@ -28,13 +28,13 @@ function drawLegend(field) {
 
 function describePanel(panel, arrays) {
   if (panel < 0) return "Click a panel to read its values.";
-  if (panel >= arrays.panel_zigzag.length)
-    return `edge beam · thickness ${(1000 * arrays.panel_thickness[panel]).toFixed(1)} mm`;
-  const words = [`panel ${panel}`, `zigzag ${arrays.panel_zigzag[panel]}`,
-    `strip ${arrays.panel_strip[panel]}`,
-    `thickness ${(1000 * arrays.panel_thickness[panel]).toFixed(1)} mm`];
+  const beam = panel >= arrays.panel_zigzag.length;
+  const words = beam ? ["edge beam"] : [`panel ${panel}`, `zigzag ${arrays.panel_zigzag[panel]}`,
+    `strip ${arrays.panel_strip[panel]}`];
+  words.push(`thickness ${(1000 * arrays.panel_thickness[panel]).toFixed(1)} mm`);
   if (arrays.panel_utilization)
     words.push(`mean utilization ${arrays.panel_utilization[panel].toFixed(2)}`);
+  if (beam) return words.join(" · ");
   words.push(`planarity ${(100 * arrays.panel_planarity[panel]).toFixed(2)} %`);
   if (arrays.panel_class) words.push(`class ${arrays.panel_class[panel]}`);
   return words.join(" · ");

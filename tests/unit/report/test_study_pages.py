@@ -19,6 +19,8 @@ def test_every_design_is_a_row_with_its_units(tmp_path):
         assert text in page
     assert "&lt;b&gt;mechanism" in page
     assert page.count("<tr>") == 3
+    for cell in ('"good">converged', '"good">pass', '"bad">unstable', '"">–'):
+        assert f"<td class={cell}</td>" in page
 
 
 def test_settings_are_listed_with_hash_and_versions():

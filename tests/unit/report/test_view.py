@@ -76,10 +76,13 @@ def test_smooth_sheets_have_no_creases(tmp_path):
 
 
 def test_very_large_sheets_are_shown_by_facets(tmp_path, monkeypatch):
-    """Above the limit: two triangles a panel, each with the largest value of its cells."""
+    """Above the limit: two triangles a panel, each with the largest value of its four cells."""
     fine, state = view_of(tmp_path)
     monkeypatch.setattr(view, "CELLS_MAX", 10)
-    coarse, _ = view_of(tmp_path)
+    cells = np.random.default_rng(5).permutation(8 * PANELS).reshape(-1, 4)
+    state.final["utilization_cell"] = cells
+    coarse = make_view(make_subject(state, 5.0, Limits(), Elasticity(31e6, 0.2)))
+    assert np.array_equal(coarse.arrays["field_utilization"], cells.max(axis=1))
     assert len(coarse.arrays["triangles"]) == 2 * PANELS
     assert coarse.facts["coarse"]
     assert not fine.facts["coarse"]
