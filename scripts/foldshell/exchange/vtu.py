@@ -1,6 +1,6 @@
 """VTU files of one kind of cell: base64 of deflated arrays, as VTK and meshio read them.
 
-Written here because to import meshio takes longer than to write a design's two files.
+Written here because to import meshio takes as long as to write a design's two files: 0.1 s.
 """
 
 import base64

@@ -87,7 +87,7 @@ def save_png(path: str | Path, picture: Image.Image) -> None:
 def load_font(size: int, bold: bool = False) -> ImageFont.FreeTypeFont:
     """Return DejaVu Sans, which matplotlib brings along, at a size in pixels.
 
-    Matplotlib is found without importing it, which would take as long as drawing two pictures.
+    Matplotlib is found without importing it, which would take as long as drawing one picture.
     """
     name = "DejaVuSans-Bold.ttf" if bold else "DejaVuSans.ttf"
     package = Path(find_spec("matplotlib").origin).parent

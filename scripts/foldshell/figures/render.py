@@ -1,6 +1,7 @@
 """VTK without a screen: coloured surface, lines and supports to an image array.
 
-PyVista is left out: it takes longer to import than all pictures of a design take to draw.
+PyVista is left out: to import its plotter takes 0.8 s of processor time, to draw all nine pictures
+of a design 1.1 s.
 """
 
 import ctypes
