@@ -67,6 +67,8 @@ rule timings:
         ),
     params:
         folder=f"{RESULTS}/benchmarks",
+    conda:
+        "../envs/foldshell.yaml"
     script:
         "../scripts/timings.py"
 

@@ -9,14 +9,11 @@ from foldshell.study.claims.outcome import Comparer
 COMPARER = Comparer()
 
 
-def _verdict(claim):
-    return claim.judge()
-
-
 def _heights(quantity, values, **columns):
-    heights = (6.0, 10.0, 28.0)
-    return [make_outcome({q: v[k] for q, v in {quantity: values}.items()}, height_m=h, **columns)
-            for k, h in enumerate(heights)]  # fmt: skip
+    return [
+        make_outcome({quantity: value}, height_m=height, **columns)
+        for value, height in zip(values, (6.0, 10.0, 28.0), strict=True)
+    ]
 
 
 @pytest.mark.parametrize(

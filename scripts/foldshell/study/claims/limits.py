@@ -111,8 +111,8 @@ FOLDED = "less deflection when folded"
 SIZED = "less material when folded, each sized by itself"
 UNFOLDED = (
     "The flat sheet is the folded one unfolded, so its sides are longer than the span, and a plate "
-    "deflects about with their fourth power. Where it is unstable its first-order displacement "
-    "stands for it."
+    "deflects about with their fourth power. Its uncertainty is its mesh error of first order: no "
+    "second code checks it. Where it is unstable its first-order displacement stands for it."
 )
 LARGE = (
     "The theory is that of small displacements: one beyond a tenth of the span only says that the "

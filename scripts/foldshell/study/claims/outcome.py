@@ -1,6 +1,6 @@
 """The outcome of a design, its uncertainty, and designs that differ in one thing only."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
 from itertools import pairwise
 from typing import Any
@@ -191,6 +191,3 @@ def pair_neighbours(outcomes: Sequence[Outcome], column: str) -> list[tuple[Outc
     """Return (lower, higher) pairs, neighbours in the order of a column of numbers."""
     return [pair for group in group_by_others(outcomes, column)
             for pair in pairwise(group.values())]  # fmt: skip
-
-
-Judge = Callable[[Sequence[Finding]], str]

@@ -1,6 +1,6 @@
 """A claim as it leaves the study: verdict, findings by part, what it rests on."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from typing import Any
 
@@ -10,8 +10,8 @@ from foldshell.study.claims.finding import (
     judge_claim,
     judge_part,
 )
-from foldshell.study.claims.outcome import Judge
 
+Judge = Callable[[Sequence[Finding]], str]
 STATEMENTS = {
     "C1": "Folding the Miura is auxetic: its in-plane Poisson's ratio is negative",
     "C2": "The folded sheet twists or bends into a saddle most easily; arch and dome cost "
