@@ -61,16 +61,35 @@ def test_sheets_follow_free_forms(tmp_path, name):
     _assert_followed(tmp_path / name, 15, 16)
 
 
-def _assert_followed(path, zigzag, strip):
+def _lay_out(path, zigzag, strip):
     target = make_target(str(path), 28.0, 10.0)
-    sheet = design_sheet("miura", target.section_lengths(), zigzag, strip, 60.0, 0)
+    return design_sheet("miura", target.section_lengths(), zigzag, strip, 60.0, 0), target
+
+
+def _assert_followed(path, zigzag, strip):
+    sheet, target = _lay_out(path, zigzag, strip)
     soft = fold_sheet(sheet, target, "paper", FoldSettings())
     assert soft.state == "ok" and soft.quality.rms_over_span <= 1e-3
+    _assert_exact(sheet, target)
+
+
+def _assert_exact(sheet, target):
     true = fold_sheet(sheet, target, "exact", FoldSettings())
     assert true.state == "ok", true.reason
     assert true.shape.residuals["constraint_residual"] <= 1e-9
     assert true.shape.residuals["unfold_closure_m"] <= 1e-9
     assert true.quality.max_over_span <= 1e-9
+
+
+@pytest.mark.slow
+def test_waves_too_short_for_a_coarse_soft_sheet(tmp_path):
+    """Its folds are about as deep as the radius of 3 m: it draws in, and is not called ok."""
+    write_surface(tmp_path / "a.ply", lambda x, y: 1.5 * np.sin(x / 2.2) + 0 * y)
+    sheet, target = _lay_out(tmp_path / "a.ply", 15, 16)
+    soft = fold_sheet(sheet, target, "paper", FoldSettings())
+    assert soft.state == "crumpled" and "plan coverage 0.65" in soft.reason
+    _assert_exact(sheet, target)
+    _assert_followed(tmp_path / "a.ply", 30, 16)
 
 
 OTHER_SHAPES = {
