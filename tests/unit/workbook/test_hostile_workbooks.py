@@ -5,14 +5,10 @@ bounded instead: by the sizes that are unpacked and by the memory that Python al
 """
 
 import struct
-import subprocess
-import sys
 import tracemalloc
 import zipfile
 from contextlib import nullcontext
-from pathlib import Path
 
-import numpy as np
 import pytest
 from workbook_cases import (
     GRID,
@@ -26,13 +22,10 @@ from workbook_cases import (
 )
 
 from foldshell.study.errors import InputError
-from foldshell.workbook.panels import ThicknessTable, make_panel_grid
 from foldshell.workbook.read_thickness import read_thickness
-from foldshell.workbook.write_thickness import write_thickness
 
 OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
 MEMORY_MAX = 100e6
-SCRIPTS = str(Path(__file__).resolve().parents[3] / "scripts")
 
 
 @pytest.fixture
@@ -270,46 +263,3 @@ def test_old_formats_of_cells_are_read(path):
 
     rewrite_part(path, SHEET_PART, change)
     assert read_thickness(path, GRID, LEAST, LARGEST)[0] == 0.05
-
-
-def test_whole_process_stays_small(tmp_path):
-    """The largest design there is (9000 panels), interpreter and numpy included: below 200 MB."""
-    if not Path("/proc/self/status").exists():
-        pytest.skip("peak memory is read from /proc")
-    grid = make_panel_grid(101, 91)
-    path = tmp_path / "thickness.xlsx"
-    table = ThicknessTable(grid, np.full(9000, 0.1), note=("some words",) * 9000)
-    write_thickness(path, table, {}, LEAST, LARGEST)
-    code = (
-        "import re\n"
-        "from foldshell.workbook.panels import make_panel_grid\n"
-        "from foldshell.workbook.read_thickness import read_thickness\n"
-        f"read_thickness({str(path)!r}, make_panel_grid(101, 91), 0.04, 1.0)\n"
-        "print(re.search(r'VmHWM:\\s+(\\d+) kB', open('/proc/self/status').read())[1])\n"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", code],
-        capture_output=True,
-        text=True,
-        check=True,
-        env={"PYTHONPATH": SCRIPTS, "OPENBLAS_NUM_THREADS": "1"},
-    )
-    assert int(done.stdout) / 1024 < 200
-
-
-def test_hot_path_imports_neither_pandas_nor_openpyxl():
-    """`analyse` and `resize` import these two modules: every one costs each iteration."""
-    code = (
-        "import sys\n"
-        "import foldshell.workbook.read_thickness, foldshell.workbook.write_thickness\n"
-        "heavy = {'pandas', 'openpyxl', 'matplotlib', 'pyvista', 'scipy', 'jsonschema', 'yaml'}\n"
-        "print(sorted(heavy & set(sys.modules)))\n"
-    )
-    done = subprocess.run(
-        [sys.executable, "-c", code],
-        capture_output=True,
-        text=True,
-        check=True,
-        env={"PYTHONPATH": SCRIPTS},
-    )
-    assert done.stdout.strip() == "[]"
