@@ -2,8 +2,8 @@
 
 Snakemake runs a rule again when its script changes, but not when a module that the script imports
 does. Rules therefore have as an input a list of these files with their hashes. The list stands for
-the files because Snakemake looks at, hashes and records every input of every job, and there are some
-forty files a job and a thousand jobs.
+the files because Snakemake looks at, hashes and records every input of every job, and there are
+some forty files a job and a thousand jobs.
 """
 
 import ast
