@@ -23,5 +23,6 @@ def test_report_holds_every_page_below_the_limit(code, tmp_path):
                  "report/settings"):  # fmt: skip
         assert len(results[f"results/{name}.html"]["data_uri"]) < BROWSERS_LIMIT
     assert "results/figures/supports.png" in results
+    assert (code / "scripts/foldshell/report/report.css").read_text().strip() in text
     assert "results/report/claims.html" not in results
     assert not re.search(r'<(?:script|link|img)[^>]+(?:src|href)="http', text)

@@ -136,9 +136,14 @@ def draft_nothing(subject: Subject, title: str, words: str) -> Draft:
 
 def describe_verdict(report: Mapping[str, Any]) -> str:
     """Return verdict, count of analyses and reason as one line."""
-    count = report.get("iteration", 0) + 1
-    words = f"{str(report.get('verdict')).replace('_', ' ')} after {count} analyses"
+    words = f"{str(report.get('verdict')).replace('_', ' ')} after {count_analyses(report)}"
     return f"{words}: {report['reason']}" if report.get("reason") else words
+
+
+def count_analyses(report: Mapping[str, Any]) -> str:
+    """Return the count of analyses in words."""
+    count = report.get("iteration", 0) + 1
+    return f"{count} {'analysis' if count == 1 else 'analyses'}"
 
 
 def crease_lines(subject: Subject, points: np.ndarray) -> tuple[tuple[Lines, ...], tuple[Key, ...]]:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from foldshell.figures.drafts import count_analyses
 from foldshell.report.history_chart import Series, draw_history
 from foldshell.report.markup import Cell, escape, format_number, make_table
 from foldshell.study.files import read_json
@@ -68,11 +69,10 @@ def write_verdict(files: DesignFiles) -> str:
     """Return the box with verdict, count of analyses and reason."""
     verdict = str(files.final.get("verdict"))
     kind = "good" if verdict in GOOD_VERDICTS else "bad"
-    count = files.final.get("iteration", 0) + 1
     reason = files.final.get("reason") or ""
     return (
-        f'<div class="verdict {kind}"><b>{escape(verdict.replace("_", " "))}</b> after {count} '
-        f"{'analysis' if count == 1 else 'analyses'}<p>{escape(reason)}</p></div>"
+        f'<div class="verdict {kind}"><b>{escape(verdict.replace("_", " "))}</b> after '
+        f"{count_analyses(files.final)}<p>{escape(reason)}</p></div>"
     )
 
 

@@ -53,12 +53,7 @@ def make_view(subject: Subject) -> View:
     for name, words, moved, factor in _shapes(subject, grid):
         values[f"shape_{name}"] = moved
         shapes.append({"name": name, "words": words, "factor": factor})
-    facts = {
-        "span": subject.span,
-        "fields": fields,
-        "shapes": shapes,
-        "coarse": grid.per_triangle > 1,
-    }
+    facts = {"fields": fields, "shapes": shapes}
     return View(arrays | values, facts)
 
 

@@ -171,6 +171,9 @@ def test_long_words_are_broken_not_shrunk():
     assert describe_verdict({"verdict": "not_converged", "iteration": 29}) == (
         "not converged after 30 analyses"
     )
+    assert describe_verdict({"verdict": "unstable", "reason": "a mechanism"}) == (
+        "unstable after 1 analysis: a mechanism"
+    )
 
 
 def test_words_do_not_cover_the_view():
