@@ -4,17 +4,17 @@ import pytest
 from folded_cases import CASES, analyse_case
 
 # Limits are known to about 1 %. 5 % is asked at the study's mesh and 2 % at twice as many
-# subdivisions; at the demo's mesh, a trial, the largest error measured is 10.3 %.
-BOUNDS = {2: 0.11, 4: 0.05}
+# subdivisions; at the demo's mesh, a trial, the largest errors measured are 8.7 and 10.3 %.
+BOUNDS = {2: (0.10, 0.11), 4: (0.05, 0.05)}
 
 
 @pytest.mark.parametrize("case", CASES, ids=str)
 @pytest.mark.parametrize("subdivisions", [2, 4])
 def test_displacement_and_work_are_near_their_limits(case, subdivisions):
     found = analyse_case(case, subdivisions)
-    bound = BOUNDS[subdivisions]
-    assert found["displacement_mm"] == pytest.approx(case.displacement_mm, rel=bound)
-    assert found["work_knm"] == pytest.approx(case.work_knm, rel=bound)
+    displacement, work = BOUNDS[subdivisions]
+    assert found["displacement_mm"] == pytest.approx(case.displacement_mm, rel=displacement)
+    assert found["work_knm"] == pytest.approx(case.work_knm, rel=work)
 
 
 @pytest.mark.verification
