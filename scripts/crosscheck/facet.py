@@ -82,6 +82,7 @@ def join_parts(parts: Sequence[Substructure]) -> Substructure:
     """One substructure from those of successive ranges of facets."""
 
     def join(name: str) -> Condensation:
+        """One of the two steps of all parts."""
         steps = [getattr(part, name) for part in parts]
         return Condensation(
             steps[0].boundary,

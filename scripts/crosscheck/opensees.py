@@ -62,7 +62,7 @@ def divide_facets(model: Model, subdivisions: int) -> ShellGrid:
     key, number = np.unique(key, axis=0, return_inverse=True)
     number = number.reshape(len(facets), -1)
     nodes = np.einsum("nk,nkx->nx", key[:, 3:] / n, model.vertices[key[:, :3]])
-    elements = number[:, _list_triangles(n)]
+    elements = number[:, _list_triangles(lattice)]
     a, b, c = (model.vertices[facets[:, k]] for k in range(3))
     normal = np.cross(b - a, c - a)
     area = np.linalg.norm(normal, axis=1) / 2
@@ -84,18 +84,12 @@ def divide_facets(model: Model, subdivisions: int) -> ShellGrid:
     )
 
 
-def _list_triangles(n: int) -> np.ndarray:
-    """Lattice points of the n x n triangles of a facet, counter-clockwise: (n^2, 3)."""
-    start = np.cumsum([0, *range(n + 1, 0, -1)])
-    up = [
-        (start[j] + i, start[j] + i + 1, start[j + 1] + i) for j in range(n) for i in range(n - j)
-    ]
-    down = [
-        (start[j] + i + 1, start[j + 1] + i + 1, start[j + 1] + i)
-        for j in range(n - 1)
-        for i in range(n - 1 - j)
-    ]
-    return np.array(up + down)
+def _list_triangles(lattice: np.ndarray) -> np.ndarray:
+    """Places in the lattice of the n x n triangles of a facet, counter-clockwise: (n^2, 3)."""
+    place = {(i, j): k for k, (_, i, j) in enumerate(lattice.tolist())}
+    shapes = (((0, 0), (1, 0), (0, 1)), ((1, 0), (1, 1), (0, 1)))
+    triangles = [[(i + a, j + b) for a, b in shape] for shape in shapes for i, j in place]
+    return np.array([[place[p] for p in three] for three in triangles if place.keys() >= {*three}])
 
 
 def _find_supported(model: Model, key: np.ndarray) -> np.ndarray:

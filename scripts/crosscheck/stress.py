@@ -15,6 +15,7 @@ def compute_strains(grid: Discretisation, local: np.ndarray) -> tuple[np.ndarray
     change = (slope.reshape(shape) @ at).reshape(*slope.shape[:-1], 5)  # d(u..by)/d(x|y)
 
     def strain(u: int, v: int) -> np.ndarray:
+        """(xx, yy, 2xy) of the fields in columns u and v."""
         du, dv = change[..., u], change[..., v]
         return np.stack([du[..., 0], dv[..., 1], du[..., 1] + dv[..., 0]], axis=-1)
 

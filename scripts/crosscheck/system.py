@@ -112,6 +112,7 @@ def hold_edges(supported: np.ndarray):
     """Pins (no translation) at every mesh node on the given vertex pairs."""
 
     def hold(mesh: Mesh) -> np.ndarray:
+        """Held translations of the nodes on the outlines of facets: (N, 3)."""
         pairs = {tuple(sorted(pair)) for pair in supported.tolist()}
         on = [tuple(edge) in pairs for edge in mesh.edges.tolist()]
         held = np.zeros((mesh.skeleton, 3), bool)
