@@ -15,7 +15,8 @@ from foldshell.sizing.rules import (
     start_state,
     thicken_all,
 )
-from foldshell.sizing.step import StepRule, choose_utilization, propose_thickness
+from foldshell.sizing.step import StepRule, choose_utilization, propose_thickness, take_step
+from sizing_case import stage
 
 LIMITS = SizingLimits(0.04, 1.0, 0.6, 1.0)
 STEP = StepRule("dead_band", 0.1, 1.5, LIMITS)
@@ -210,6 +211,9 @@ def test_a_panel_is_sized_by_the_strip_that_hangs_from_it_if_that_is_used_more()
     }
     assert choose_utilization(arrays, "panel_mean").tolist() == [1.3, 0.7, 0.9, 0.4]
     assert arrays["utilization_panel_mean"][0] == 0.5
+    sizing = stage("resize")["sizing"]
+    step = take_step(analysis(), arrays | {"thickness": np.full(4, 0.1)}, {}, sizing)
+    assert step.thickness == pytest.approx([0.11, 0.1, 0.1, 0.09])
     plain = {"utilization_panel_mean": np.array([0.5])}
     assert choose_utilization(plain, "panel_mean").tolist() == [0.5]
     assert choose_utilization({}, "panel_mean") is None
