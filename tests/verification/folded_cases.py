@@ -55,9 +55,9 @@ def load_sheet(name: str) -> dict[str, np.ndarray]:
     return arrays
 
 
-def analyse_case(case: FoldedCase, subdivisions: int) -> dict[str, float]:
+def analyse_case(case: FoldedCase, subdivisions: int, order: int | None = None) -> dict[str, float]:
     """Return displacement (mm), work (kNm), p99 utilization and the number of freedoms."""
-    arrays = mesh_folded_sheet(load_sheet(case.sheet), case.support, subdivisions)
+    arrays = mesh_folded_sheet(load_sheet(case.sheet), case.support, subdivisions, order)
     mesh = mesh_from_arrays(arrays)
     model = build_model(mesh, arrays["supported_nodes"], CONCRETE.poissons_ratio)
     thickness = np.full(len(mesh.elements), case.thickness)
