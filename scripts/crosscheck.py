@@ -25,7 +25,8 @@ def main(
 ) -> None:
     """Read model.json and primary.json; write comparison.json and comparison.xlsx.
 
-    `subdivisions` are the elements along a block side of each mesh, coarse to fine; `tolerance`
+    `subdivisions` are the elements along a block side of each mesh, coarse to fine, of the first
+    comparison; where codes differ, a second one on finer meshes stands. `tolerance`
     overrides relative tolerances by quantity; `stability` adds the buckling factors and values
     of second order that the primary code gives. `shear_factor` 5/6 is the physical plate. A
     mechanism has nothing to compare: `pass` is null, with the reason.

@@ -11,7 +11,9 @@ from crosscheck.second_order import apply_geometric, compute_geometric_matrices
 from crosscheck.system import Response, System, solve_vectors
 
 STEPS = 60
-TOLERANCE = 1e-5  # bound on the relative error of 1/f; at 1e-3 some searches end on a higher mode
+TOLERANCE = 1e-5
+"""Bound on the relative error of 1/f. At 1e-3 the search ended on a higher mode, 3 and 7 % up, in
+two of 34 designs; at 1e-5 it takes 9 to 35 of the steps allowed."""
 
 
 def compute_buckling_factors(system: System, first: Response, seed: int = 0) -> np.ndarray:

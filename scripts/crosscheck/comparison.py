@@ -40,9 +40,9 @@ TOLERANCES = {
     "reaction": 1e-6,
     "reaction_balance": 1e-6,
 }
-"""Relative. Displacement and work: what two extrapolations of about 1 % each and a fold's slow
-convergence leave; utilization and buckling factor follow derivatives and modes, which settle
-later; reactions are statics, so only rounding may differ."""
+"""Relative. Displacement and work: two limits of 1 to 2.5 % each; utilization and buckling factor
+follow derivatives and modes, which settle later; reactions are statics, where only rounding may
+differ."""
 
 
 @dataclass(frozen=True)

@@ -33,8 +33,8 @@ def test_folded_case(tmp_path, surface, support, thickness, limit_mm, energy):
         assert np.linalg.norm(unbalance) < 1e-6 * np.linalg.norm(run["load_sum_kn"])
 
 
-@pytest.mark.parametrize(("surface", "support", "thickness", "limit_mm", "energy"), SIX_CASES)
-def test_shear_deformation_adds_little(tmp_path, surface, support, thickness, limit_mm, energy):
+@pytest.mark.parametrize(("surface", "support", "thickness"), [case[:3] for case in SIX_CASES])
+def test_shear_deformation_adds_little(tmp_path, surface, support, thickness):
     """Shear factor 5/6 in place of the thin limit: what a plate theory without shear leaves out.
 
     Measured 1.7 % (50 mm) to 4.2 % (120 mm) in displacement, as much as the comparison allows: the
@@ -47,7 +47,6 @@ def test_shear_deformation_adds_little(tmp_path, surface, support, thickness, li
     )
     for name in ("displacement_down_max_m", "work_knm"):
         assert 1.01 < thick[name] / thin[name] < 1.05
-    assert limit_mm > 0 and energy > 0
 
 
 def test_buckling_and_second_order_settle(tmp_path):
