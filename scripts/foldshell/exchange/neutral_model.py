@@ -35,7 +35,7 @@ def make_neutral_model(
     groups, compare = settings["combinations"], settings["crosscheck"]
     fixed = mesh.get("fixed_thickness", np.empty(0))
     sized = len(panel_thickness)
-    bare = {"self_weight_only_panels": list(range(sized, sized + len(fixed)))}
+    strips = list(range(sized, sized + len(fixed)))
     return {
         "format": EDGE_BEAM_FORMAT if len(fixed) else FORMAT,
         "design": design,
@@ -43,7 +43,7 @@ def make_neutral_model(
         "facets": mesh["facets"].tolist(),
         "facet_panel": mesh["facet_panel"].tolist(),
         "panel_thickness_m": [*panel_thickness.tolist(), *fixed.tolist()],
-        **(bare if len(fixed) else {}),
+        **({"self_weight_only_panels": strips} if strips else {}),
         "supported_edges": mesh["support_pairs"].tolist(),
         "material": {
             "youngs_modulus_kpa": material["youngs_modulus"],
