@@ -95,6 +95,8 @@ def test_strips_are_reported_and_not_sized(folder):
     criterion = report["criteria"]["edge_beam_utilization"]
     assert criterion["value"] == report["edge_beam_utilization_panel_mean_max"]
     assert criterion["limit"] == 1.0
+    grouped = read_json(folder / "sizing/classes.json")["criteria"]["edge_beam_utilization"]
+    assert grouped["value"] == pytest.approx(criterion["value"])
 
 
 def test_workbooks_and_summary_show_the_edge_beam(folder):
@@ -174,6 +176,8 @@ def test_gradients_of_the_constraints_leave_the_strips_out(folder):
     assert arrays["panel_area"].shape == (PANELS,)
     assert arrays["constraint_gradient"].shape == (len(arrays["constraint_value"]), PANELS)
     assert report["criteria"]["edge_beam_utilization"]["value"] == strips.max() > limit
+    above = (arrays["utilization_panel_mean"] > limit).sum()
+    assert report["panels_above_one"] == above > 0 and report["panels_at_bound"] == PANELS
     row = int(np.argmin(np.abs(arrays["constraint_value"] - strips.max() / limit)))
     panel = int(np.abs(arrays["constraint_gradient"][row]).argmax())
     step = 1e-6 * np.eye(PANELS)[panel]

@@ -79,6 +79,17 @@ def test_strips_hang_from_every_free_border_edge(seed, support, count):
 
 
 @pytest.mark.parametrize("seed", range(3))
+def test_strips_are_cut_along_their_shorter_diagonal(seed):
+    """Both facets of a strip share two corners: no farther apart than the other two of an edge that slopes."""
+    sheet = renumbered(seed)
+    arrays = mesh_folded_sheet(sheet, "strip", 2, edge_beam=BEAM)
+    for first, second in arrays["facets"][len(sheet["facets"]) :].reshape(-1, 2, 3):
+        cut, others = np.intersect1d(first, second), np.setxor1d(first, second)
+        own, other = (np.ptp(arrays["vertices"][ends], axis=0) for ends in (cut, others))
+        assert np.linalg.norm(own) < np.linalg.norm(other)
+
+
+@pytest.mark.parametrize("seed", range(3))
 def test_strips_continue_the_sheet_with_shared_vertices(seed):
     """Every edge has two facets at most, which run along it in opposite directions."""
     arrays = mesh_folded_sheet(renumbered(seed), "strip", 2, edge_beam=BEAM)
