@@ -80,7 +80,7 @@ def test_strips_hang_from_every_free_border_edge(seed, support, count):
 
 @pytest.mark.parametrize("seed", range(3))
 def test_strips_are_cut_along_their_shorter_diagonal(seed):
-    """Both facets of a strip share two corners: no farther apart than the other two of an edge that slopes."""
+    """Both facets share two corners, closer than the other two where the edge slopes."""
     sheet = renumbered(seed)
     arrays = mesh_folded_sheet(sheet, "strip", 2, edge_beam=BEAM)
     for first, second in arrays["facets"][len(sheet["facets"]) :].reshape(-1, 2, 3):
