@@ -5,7 +5,7 @@ report: "../docs/report/workflow.rst"
 
 
 def has_claims():
-    """Tell whether the claims are judged or asked for: they need twice the study's time."""
+    """Tell whether the claims are judged or asked for: they need many more runs than the study."""
     asked = {"report", "claims"} & set(map(str, workflow.dag_settings.targets))
     return bool(asked) or Path(f"{RESULTS}/claims.json").exists()
 
