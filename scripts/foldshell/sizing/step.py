@@ -24,6 +24,8 @@ RULES: dict[str, Callable[[SizingState, SizingLimits], SizingState]] = {
     "optimality": optimality,
 }
 
+EDGE_BEAM_NOTE = "thicker for its edge beam"
+
 NEED_CONSTRAINTS = ("optimality",)
 """Rules that work on the linearised constraints of the analysis."""
 
@@ -94,7 +96,23 @@ def take_step(
         make_step_rule(sizing),
         read_constraints(arrays),
     )
-    return replace(following, thickness=round_thickness(following.thickness))
+    new = round_thickness(following.thickness)
+    relieving = _relieves_strip(arrays, sizing) & (new > arrays["thickness"])
+    return replace(following, thickness=new, note=_add_note(following.note, relieving))
+
+
+def _relieves_strip(arrays: Mapping[str, np.ndarray], sizing: Mapping[str, Any]) -> np.ndarray:
+    """Return which panels (P,) are within their own limit, but hold a strip that is not."""
+    own = arrays.get(f"utilization_{sizing['measure']}")
+    if own is None:
+        return np.zeros(len(arrays["thickness"]), bool)
+    limit = sizing["utilization_max"]
+    return (own <= limit) & (choose_utilization(arrays, sizing["measure"]) > limit)
+
+
+def _add_note(notes: tuple[str, ...], relieving: np.ndarray) -> tuple[str, ...]:
+    words = np.where(relieving, EDGE_BEAM_NOTE, "").tolist()
+    return tuple("; ".join(filter(None, pair)) for pair in zip(notes, words, strict=True))
 
 
 def choose_utilization(arrays: Mapping[str, np.ndarray], measure: str) -> np.ndarray | None:

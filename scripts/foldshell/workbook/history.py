@@ -36,11 +36,20 @@ EDGE_BEAM_KEYS = ("edge_beam_utilization_max", "edge_beam_utilization_panel_mean
 
 _CHARTS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     ("Volume", "m3", ("volume_m3",)),
-    ("Utilization", "-", ("utilization_max", "utilization_p99", "utilization_panel_mean_max")),
+    (
+        "Utilization",
+        "-",
+        (
+            "utilization_max",
+            "utilization_p99",
+            "utilization_panel_mean_max",
+            "edge_beam_utilization_panel_mean_max",
+        ),
+    ),
     ("Vertical displacement", "m", ("displacement_vertical_max_m", "displacement_limit_m")),
     ("Least buckling factor", "-", ("buckling_factor_min",)),
 )
-_COLOURS = ("#1D4ED8", "#B45309", "#6B7280")
+_COLOURS = ("#1D4ED8", "#B45309", "#6B7280", "#0F766E")
 _FONT = {"name": "Arial", "size": 9, "bold": False}
 _LIMIT_LINE = {
     "line": {"color": "#9F1239", "width": 1.5, "dash_type": "dash"},
@@ -131,21 +140,24 @@ def add_history_sheets(
         mark_above(sheet, styles, (first, column, last, column), utilization_max)
     charts = add_sheet(book, "charts")
     charts.fit_to_pages(1, 1)
-    for index, (title, unit, keys) in enumerate(_CHARTS):
-        drawn = [key for key in keys if any(row.get(key) is not None for row in rows)]
+    for index, (title, unit, wanted) in enumerate(_CHARTS):
+        drawn = [key for key in wanted if any(row.get(key) is not None for row in rows)]
         if drawn:
-            chart = _make_chart(book, title, unit, drawn, (first, last))
+            columns = {key: keys.index(key) for key in drawn}
+            chart = _make_chart(book, title, unit, columns, (first, last))
             charts.insert_chart(17 * (index // 2), 8 * (index % 2), chart)
 
 
 def _make_chart(
-    book: Any, title: str, unit: str, keys: Sequence[str], span: tuple[int, int]
+    book: Any, title: str, unit: str, columns: Mapping[str, int], span: tuple[int, int]
 ) -> Any:
-    """Return straight lines with markers over the iterations, header and units left out."""
+    """Return straight lines with markers over the iterations, header and units left out.
+
+    `columns` gives the column of each drawn key, `span` the first and last row with numbers.
+    """
     chart = book.add_chart({"type": "scatter", "subtype": "straight_with_markers"})
     first, last = span
-    for key, colour in zip(keys, _COLOURS, strict=False):
-        column = HISTORY_KEYS.index(key)
+    for (key, column), colour in zip(columns.items(), _COLOURS, strict=False):
         chart.add_series(
             {
                 "name": ["history", 0, column],
@@ -160,7 +172,7 @@ def _make_chart(
     grid = {"visible": True, "line": {"color": "#E5E7EB"}}
     axis = {"num_font": _FONT, "min": 0, "num_format": "General", "major_gridlines": grid}
     chart.set_y_axis(axis)
-    chart.set_legend({"position": "bottom", "font": _FONT} if len(keys) > 1 else {"none": True})
+    chart.set_legend({"position": "bottom", "font": _FONT} if len(columns) > 1 else {"none": True})
     chart.set_size({"width": 500, "height": 320})
     return chart
 

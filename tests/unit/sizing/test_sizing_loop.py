@@ -15,7 +15,13 @@ from foldshell.sizing.rules import (
     start_state,
     thicken_all,
 )
-from foldshell.sizing.step import StepRule, choose_utilization, propose_thickness, take_step
+from foldshell.sizing.step import (
+    EDGE_BEAM_NOTE,
+    StepRule,
+    choose_utilization,
+    propose_thickness,
+    take_step,
+)
 from sizing_case import stage
 
 LIMITS = SizingLimits(0.04, 1.0, 0.6, 1.0)
@@ -214,6 +220,7 @@ def test_a_panel_is_sized_by_the_strip_that_hangs_from_it_if_that_is_used_more()
     sizing = stage("resize")["sizing"]
     step = take_step(analysis(), arrays | {"thickness": np.full(4, 0.1)}, {}, sizing)
     assert step.thickness == pytest.approx([0.11, 0.1, 0.1, 0.09])
+    assert step.note == (EDGE_BEAM_NOTE, "", "", "")
     plain = {"utilization_panel_mean": np.array([0.5])}
     assert choose_utilization(plain, "panel_mean").tolist() == [0.5]
     assert choose_utilization({}, "panel_mean") is None

@@ -94,6 +94,19 @@ def test_history_workbook_charts_leave_header_and_units_out(tmp_path, rows):
         assert '<c:smooth val="1"/>' not in chart
 
 
+def test_the_utilization_chart_draws_the_strips_of_an_edge_beam(tmp_path):
+    """The series must point at the column of the strips, which stands after `reason`."""
+    used = {"edge_beam_utilization_max": 1.6, "edge_beam_utilization_panel_mean_max": 1.3}
+    path = tmp_path / "history.xlsx"
+    write_history(path, make_history([make_analysis(0, **used), make_analysis(1, **used)]), {})
+    sheet = openpyxl.load_workbook(path)["history"]
+    column = [cell.value for cell in sheet[1]].index("edge_beam_utilization_panel_mean_max")
+    letter = sheet.cell(1, column + 1).column_letter
+    with zipfile.ZipFile(path) as archive:
+        chart = archive.read("xl/charts/chart2.xml").decode()
+    assert f"history!${letter}$3:${letter}$4" in chart and chart.count("<c:ser>") == 4
+
+
 def test_one_iteration_still_gives_a_workbook(tmp_path, rows):
     write_history(tmp_path / "history.xlsx", rows[:1], {})
     assert openpyxl.load_workbook(tmp_path / "history.xlsx")["history"].max_row == 3
