@@ -6,6 +6,7 @@
 
 import os
 import sys
+import time
 from pathlib import Path
 
 from snakemake.utils import min_version
@@ -14,7 +15,7 @@ min_version("9.0")
 sys.path.insert(0, str(Path(workflow.basedir) / "scripts"))
 
 from foldshell.study.config_file import read_config
-from foldshell.study.environment import prepare_environment
+from foldshell.study.environment import ONE_THREAD, prepare_environment
 from foldshell.study.errors import user_errors
 from foldshell.study.load import load_study
 from foldshell.workbook.edits import keep_all_edited

@@ -87,11 +87,4 @@ def study_files(tag):
 
 
 include: "loop.smk"
-
-
-onstart:
-    # To keep to 100 job starts a second, Snakemake 9 wakes its scheduler every second once more for
-    # each job that has ended: after some hundred jobs that takes half a core. Jobs of this machine
-    # need no such limit.
-    if workflow.local_exec and hasattr(workflow.scheduler, "job_rate_limiter"):
-        workflow.scheduler.job_rate_limiter = None
+include: "jobs.smk"

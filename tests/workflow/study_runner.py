@@ -101,12 +101,13 @@ def count_files(folder: Path) -> int:
 
 
 def find_jobs(process: subprocess.Popen) -> list[int]:
-    """Return the ids of the job processes of a running Snakemake."""
+    """Return the ids of the job processes of a running Snakemake: forks of the fork server."""
     listed = subprocess.run(
-        ["ps", "-o", "pid=,args=", "--sid", str(process.pid)], capture_output=True, text=True
+        ["ps", "-o", "pid=,ppid=,args=", "--sid", str(process.pid)], capture_output=True, text=True
     )
-    lines = [line.split(maxsplit=1) for line in listed.stdout.splitlines()]
-    return [int(pid) for pid, words in lines if "/.snakemake/scripts/" in words]
+    lines = [line.split(maxsplit=2) for line in listed.stdout.splitlines()]
+    servers = {pid: parent for pid, parent, words in lines if "/forks/server.py" in words}
+    return [int(pid) for pid, parent in servers.items() if parent in servers]
 
 
 def hashes(folder: Path, pattern: str) -> dict[str, str]:

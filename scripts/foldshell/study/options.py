@@ -167,6 +167,13 @@ class Limits:
 
 
 @dataclass(frozen=True)
+class Jobs:
+    """How jobs are started; results do not depend on it."""
+
+    fork: bool
+
+
+@dataclass(frozen=True)
 class Figures:
     """Pictures (px)."""
 
@@ -190,4 +197,5 @@ class Settings:
     sizing: Sizing
     crosscheck: Crosscheck
     limits: Limits
+    jobs: Jobs
     figures: Figures

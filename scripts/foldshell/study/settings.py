@@ -23,6 +23,7 @@ from foldshell.study.options import (
     Fold,
     FoldLimits,
     FoldWeights,
+    Jobs,
     Limits,
     Loads,
     Material,
@@ -52,6 +53,7 @@ _GROUPS = {
     "sizing": Sizing,
     "crosscheck": Crosscheck,
     "limits": Limits,
+    "jobs": Jobs,
     "figures": Figures,
 }
 _NESTED = {

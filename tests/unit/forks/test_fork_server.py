@@ -1,0 +1,149 @@
+"""Scripts in forks end as they would by `python script`, and leave nothing behind."""
+
+import os
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from forks.client import AVAILABLE, ForkServer, NoForkServer
+
+pytestmark = pytest.mark.skipif(not AVAILABLE, reason="forks are made on Linux alone")
+SCRIPTS = Path(__file__).parents[3] / "scripts"
+WAIT = 10.0
+"""Seconds after which a process that should be gone counts as left behind: it takes some 10 ms."""
+
+
+@pytest.fixture
+def folder(tmp_path):
+    """Modules of the server."""
+    (tmp_path / "modules").mkdir()
+    (tmp_path / "modules/library.py").write_text("loaded = [1]\n")
+    return tmp_path / "modules"
+
+
+@pytest.fixture
+def server(folder):
+    started = ForkServer(folder, ["library"])
+    yield started
+    started.stop()
+
+
+def run(server, folder, text, name="job.py"):
+    """Run a script with this text; return how it ended."""
+    script = folder.parent / name
+    script.write_text(text)
+    with server.start(script) as job:
+        return job.wait()
+
+
+def is_alive(pid):
+    try:
+        os.kill(pid, 0)
+    except ProcessLookupError:
+        return False
+    return True
+
+
+def wait_until_gone(pid):
+    start = time.monotonic()
+    while is_alive(pid) and time.monotonic() < start + WAIT:
+        time.sleep(0.01)
+    return not is_alive(pid)
+
+
+def test_a_script_runs_as_the_main_module_with_the_libraries_loaded(server, folder):
+    out = folder.parent / "out.txt"
+    text = "import os, sys\nbefore = 'library' in sys.modules\nimport library\n"
+    text += f"open({str(out)!r}, 'w').write(repr((__name__, sys.argv, before, os.getppid())))\n"
+    end = run(server, folder, text)
+    assert end.code == 0 and end.rss_mb > 1
+    expected = "__main__", [str(folder.parent / "job.py")], True, server.process.pid
+    assert out.read_text() == repr(expected)
+
+
+@pytest.mark.parametrize(
+    ("text", "code", "said"),
+    [
+        ("import sys; sys.exit(3)", 3, ""),
+        ("raise SystemExit", 0, ""),
+        ("raise SystemExit('no such file')", 1, "no such file\n"),
+        ("1 / 0", 1, "ZeroDivisionError: division by zero\n"),
+        ("import os, signal; os.kill(os.getpid(), signal.SIGKILL)", -1, ""),
+        ("import os; os._exit(0)", -1, ""),
+        ("print('out'); import sys; print('err', file=sys.stderr)", 0, "err\n"),
+        ("import subprocess; assert subprocess.run(['true']).returncode == 0", 0, ""),
+    ],
+)
+def test_exit_codes_and_messages_are_those_of_python(server, folder, text, code, said):
+    """A process that ends without an answer never counts as done."""
+    errors = folder.parent / "errors.txt"
+    redirect = f"import os\nos.dup2(os.open({str(errors)!r}, os.O_WRONLY | os.O_CREAT), 2)\n"
+    assert run(server, folder, redirect + text).code == code
+    assert errors.read_text().endswith(said)
+
+
+def test_forks_share_nothing(server, folder):
+    change = "import library\nlibrary.loaded.append(2)\nassert library.loaded == [1, 2]"
+    assert [run(server, folder, change).code for _ in range(3)] == [0, 0, 0]
+
+
+def test_processor_time_counts_the_work_of_the_fork_and_its_children(server, folder):
+    """Half a second in all, in steps of the kernel's clock, 10 ms at most."""
+    spin = "import time\nwhile time.process_time() < {}: pass\n"
+    assert run(server, folder, "pass").cpu_seconds < 0.2
+    code = spin.format(0.25)
+    both = f"import subprocess, sys\nsubprocess.run([sys.executable, '-c', {code!r}])\n" + code
+    assert run(server, folder, both).cpu_seconds >= 0.48
+
+
+def test_jobs_run_side_by_side_and_stay_until_they_are_closed(server, folder):
+    script = folder.parent / "wait.py"
+    ready = folder.parent / "ready"
+    script.write_text(
+        f"import os, time\nwhile not os.path.exists({str(ready)!r}): time.sleep(0.01)"
+    )
+    first, second = server.start(script), server.start(script)
+    ready.touch()
+    assert [second.wait().code, first.wait().code] == [0, 0]
+    assert is_alive(first.pid) and is_alive(second.pid)
+    for job in (first, second):
+        job.close()
+        assert wait_until_gone(job.pid)
+
+
+def test_without_a_server_nothing_is_started(server, folder):
+    os.kill(server.process.pid, signal.SIGKILL)
+    server.process.wait()
+    with pytest.raises(NoForkServer):
+        run(server, folder, "pass")
+
+
+def test_a_library_that_cannot_be_imported_leaves_no_server(folder):
+    (folder / "broken.py").write_text("1 / 0\n")
+    server = ForkServer(folder, ["broken"])
+    with pytest.raises(NoForkServer):
+        run(server, folder, "pass")
+    server.stop()
+
+
+def test_a_killed_client_takes_the_server_with_it(folder):
+    """Only the server: a job that has begun goes on, as one started by a shell does."""
+    program = "import sys\nfrom forks.client import ForkServer\n"
+    program += f"server = ForkServer({str(folder)!r}, ['library'])\n"
+    program += "print(server.process.pid, flush=True)\nsys.stdin.read()\n"
+    client = subprocess.Popen(
+        [sys.executable, "-c", program],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"PYTHONPATH": str(SCRIPTS)},
+    )
+    with client:
+        pid = int(client.stdout.readline())
+        assert is_alive(pid)
+        client.kill()
+    assert wait_until_gone(pid)
