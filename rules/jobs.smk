@@ -8,7 +8,9 @@ from forks.client import AVAILABLE, ForkServer, NoForkServer
 
 FORKED = ["pattern", "fold", "mesh", "start", "analyse", "resize", "group", "size"]
 FORKED += ["neutral_model", "refine", "crosscheck", "draw", "page", "sensitivity", "flat_equal"]
-LOADED = ["snakemake.script", "xlsxwriter", "meshio", "ezdxf", *FORKED]
+LOADED = ["snakemake.script", *FORKED, "xlsxwriter", "meshio", "ezdxf"]
+LOADED += ["crosscheck.verdict", "crosscheck.workbook"]
+LOADED += ["vtkmodules.vtkRenderingOpenGL2", "vtkmodules.util.numpy_support"]
 
 
 def run_in_forks(server):

@@ -1,17 +1,19 @@
 """The process that runs scripts in forks of itself: `server.py descriptor folder module ...`.
 
-It imports the modules once, from the folder, and then waits on the socket `descriptor`. A message
-is the path of a script, with a socket of its own for the answer. The fork sends its process id,
-runs the script, and sends (exit code, processor seconds, largest resident memory in kB). It ends
-once the other side has closed the socket, so that its process can be looked at until then.
+It imports the modules once, from the folder, whenever the socket `descriptor` has no message. A
+message is the path of a script, with a socket of its own for the answer. The fork sends its process
+id, runs the script, and sends (exit code, processor seconds, largest resident memory in kB). It
+ends once the other side has closed that socket, so that its process can be looked at until then.
 A closed `descriptor` ends the server, whoever closed it: nothing stays behind a killed client.
 """
 
+import contextlib
 import gc
 import importlib
 import os
 import resource
 import runpy
+import select
 import signal
 import socket
 import struct
@@ -24,14 +26,18 @@ MESSAGE_MAX = 65536
 
 
 def serve(requests: socket.socket, modules: list[str]) -> None:
-    """Import the modules and run scripts until the socket is closed."""
-    for name in modules:
-        importlib.import_module(name)
-    gc.collect()
-    gc.freeze()  # what is imported stays shared with the forks
+    """Import the modules and run scripts until the socket is closed.
+
+    A module that cannot be imported is left to the scripts: the error belongs there.
+    """
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the jobs and who started them
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # forks that have ended leave no zombies
+    waiting = list(modules)
     while True:
+        while waiting and not select.select([requests], [], [], 0)[0]:
+            with contextlib.suppress(Exception):
+                importlib.import_module(waiting.pop(0))
+            gc.freeze()  # what is imported stays shared with the forks
         message, descriptors, *_ = socket.recv_fds(requests, MESSAGE_MAX, 1)
         if not message:
             return
