@@ -23,6 +23,10 @@ def memory_before_last(wildcards):
     return [f"{folder}/memory.npz"] if number > 0 else []
 
 
+REPORTING = "--report" in sys.argv
+"""No job will run: the files that exist are all there is, and need not be followed one by one."""
+
+
 def iterations(wildcards):
     """Return every analysis.json up to the first whose verdict ends the loop.
 
@@ -32,11 +36,14 @@ def iterations(wildcards):
     """
     files = []
     for number in range(100):
-        try:
-            step = checkpoints.analyse.get(design=wildcards.design, iteration=f"{number:02d}")
-        except IncompleteCheckpointException as missing:
-            return [missing.targetfile]
-        files.append(step.output.json)
+        if REPORTING:
+            files.append(f"{RESULTS}/{wildcards.design}/sizing/{number:02d}/analysis.json")
+        else:
+            try:
+                step = checkpoints.analyse.get(design=wildcards.design, iteration=f"{number:02d}")
+            except IncompleteCheckpointException as missing:
+                return [missing.targetfile]
+            files.append(step.output.json)
         try:
             going_on = json.loads(Path(files[-1]).read_text())["verdict"] == "continue"
         except (OSError, ValueError, KeyError, TypeError):

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from crosscheck.errors import MechanismError
-from crosscheck.frontal import NotPositiveDefinite
+from crosscheck.frontal import NotPositiveDefinite, Plan
 from crosscheck.loads import combine_cases, compute_surface_loads, distribute_loads
 from crosscheck.model import Model
 from crosscheck.stress import compute_panel_means, compute_percentile, compute_utilization
@@ -33,10 +33,15 @@ class Analysis:
     response: Response
 
 
-def analyse_model(model: Model, subdivisions: int, shear_factor: float = SHEAR_FACTOR) -> Analysis:
-    """First-order answer to the compared combinations on `subdivisions` elements a block side."""
+def analyse_model(
+    model: Model, subdivisions: int, shear_factor: float = SHEAR_FACTOR, plan: Plan | None = None
+) -> Analysis:
+    """First-order answer to the compared combinations on `subdivisions` elements a block side.
+
+    `plan` is that of `plan_facets`, made here where it is not given.
+    """
     hold = hold_edges(model.supported_edges)
-    grid = discretise(model.vertices, model.facets, hold, subdivisions)
+    grid = discretise(model.vertices, model.facets, hold, subdivisions, plan=plan)
     material = model.material
     section = Section(
         model.thickness, material.youngs_modulus, material.poissons_ratio, shear_factor

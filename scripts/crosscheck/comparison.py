@@ -17,6 +17,9 @@ from crosscheck.reading import Place
 SECOND_ORDER = "Th.II"
 """Second-order values of combination S2 stand under `S2 Th.II`."""
 
+NOT_SETTLED = None
+"""Stands for a value whose iteration ended before it settled."""
+
 KINDS: dict[str, tuple[str, str]] = {
     "displacement_down_max_m": ("displacement", "m"),
     "displacement_max_m": ("displacement", "m"),
@@ -93,10 +96,13 @@ def _collect(entries: Sequence[Mapping[str, Any]]) -> dict[str, list]:
 def compare(primary: Code, independent: Code, tolerances: Mapping[str, float]) -> dict[str, Any]:
     """Quantity by quantity: both limits, relative difference, tolerance, pass; and mesh errors.
 
-    Compared is what both codes give; what only one gives is listed as `not_compared`.
+    Compared is what both codes give; what only one gives is listed as `not_compared`. What this
+    code has not settled on some mesh, and the other gives, is listed as `not_settled`: there is
+    no number to compare, and the comparison fails.
     """
     allowed = TOLERANCES | read_tolerances(tolerances)
     quantities: dict[str, Any] = {}
+    not_settled: list[str] = []
     missing = [name for name in primary.values if name not in independent.values]
     for combination, values in independent.values.items():
         given = primary.values.get(combination, {})
@@ -105,15 +111,20 @@ def compare(primary: Code, independent: Code, tolerances: Mapping[str, float]) -
                 missing.append(f"{combination} {name}")
             elif name in KINDS:
                 label = f"{combination} {name}"
+                if NOT_SETTLED in values[name]:
+                    not_settled.append(label)
+                    continue
                 quantities[label] = _compare_scalar(
                     primary, independent, combination, name, allowed
                 )
         if "reaction_sum_kn" in values and "reaction_sum_kn" in given:
             quantities |= _compare_reactions(given, values, combination, allowed)
+    agree = bool(quantities) and all(entry["pass"] for entry in quantities.values())
     return {
-        "pass": bool(quantities) and all(entry["pass"] for entry in quantities.values()),
+        "pass": agree and not not_settled,
         "quantities": quantities,
         "not_compared": missing,
+        "not_settled": not_settled,
         "primary_subdivisions": list(primary.subdivisions),
         "independent_subdivisions": list(independent.subdivisions),
     }

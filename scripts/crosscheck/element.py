@@ -43,7 +43,7 @@ class Quadrature:
     """Shape values and derivatives at the 3 x 3 Gauss points of a batch of elements."""
 
     shape: np.ndarray  # (9, 9) point, node
-    gradient: np.ndarray  # (..., 9, 9, 2) point, node, x|y
+    gradient: np.ndarray  # (..., 9, 2, 9) point, x|y, node
     area: np.ndarray  # (..., 9) weight times Jacobian, m2
     inverse: np.ndarray  # (..., 9, 2, 2) d(r, s)/d(x, y), index [local, natural]
 
@@ -59,7 +59,7 @@ def integrate_elements(xy: np.ndarray) -> Quadrature:
     inverse[..., 0, 0], inverse[..., 0, 1] = d, -b
     inverse[..., 1, 0], inverse[..., 1, 1] = -c, a
     inverse /= determinant[..., None, None]
-    gradient = slope @ np.swapaxes(inverse, -1, -2)
+    gradient = inverse @ np.swapaxes(slope, -1, -2)
     weight = np.outer(GAUSS_WEIGHT, GAUSS_WEIGHT).ravel()
     return Quadrature(shape, gradient, weight * determinant, inverse)
 
@@ -75,7 +75,7 @@ def compute_plane_stiffness(quadrature: Quadrature, poisson: float) -> np.ndarra
 
     The same matrix, times E t^3 / 12, is the curvature part in (bx, by).
     """
-    gx, gy = np.moveaxis(quadrature.gradient, -1, 0)
+    gx, gy = np.moveaxis(quadrature.gradient, -2, 0)
     strain = np.zeros((*gx.shape[:-2], 9, 3, 9, 2))  # point, component, node, dof
     strain[..., 0, :, 0] = gx
     strain[..., 1, :, 1] = gy

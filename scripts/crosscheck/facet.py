@@ -2,9 +2,9 @@
 
 In a flat facet membrane (u, v) and plate (w, bx, by) are uncoupled, so each is condensed alone,
 first from the insides of the blocks, then from the spokes. No drilling rotation exists inside.
+Unknowns are ordered so that what is kept comes first: parts of a matrix are then slices.
 """
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,23 +14,35 @@ from crosscheck.mesh import ReferenceFacet
 
 @dataclass(frozen=True)
 class Condensation:
-    """What is needed to go from outline values back to inner values of a batch of matrices."""
+    """What is needed to go from the b outer values back to the i inner ones of some matrices."""
 
-    boundary: np.ndarray  # (b,) dofs kept
-    interior: np.ndarray  # (i,) dofs eliminated
     coupling: np.ndarray  # (..., i, b) inverse(Kii) Kib
     inverse: np.ndarray  # (..., i, i) inverse(Kii)
 
 
 @dataclass(frozen=True)
 class Substructure:
-    """One field (membrane or plate) of all facets, condensed in two steps."""
+    """How one field (membrane or plate) of facets was condensed, in two steps."""
 
     dofs: int  # unknowns a node
     reference: ReferenceFacet
     blocks: Condensation  # (F, 3, ...)
     spokes: Condensation  # (F, ...)
-    stiffness: np.ndarray  # (F, outline dofs, outline dofs)
+
+    @property
+    def border(self) -> int:
+        """How many unknowns stand on the outline, the first of a facet's."""
+        return self.reference.outline * self.dofs
+
+    @property
+    def kept(self) -> int:
+        """How many stand on the outline and the spokes."""
+        return self.border + self.reference.spokes * self.dofs
+
+    @property
+    def outer(self) -> np.ndarray:
+        """A facet's unknowns on the outline of each block, as its condensation has them: (3, b)."""
+        return spread_dofs(self.reference.blocks[:, self.reference.block_boundary], self.dofs)
 
 
 def spread_dofs(nodes: np.ndarray, dofs: int) -> np.ndarray:
@@ -38,62 +50,67 @@ def spread_dofs(nodes: np.ndarray, dofs: int) -> np.ndarray:
     return (nodes[..., None] * dofs + np.arange(dofs)).reshape(*nodes.shape[:-1], -1)
 
 
-def condense(
-    matrix: np.ndarray, boundary: np.ndarray, interior: np.ndarray
-) -> tuple[np.ndarray, Condensation]:
-    """S = Kbb - Kbi inverse(Kii) Kib for a batch of symmetric matrices (..., n, n)."""
-    coupled = matrix[..., interior[:, None], boundary]
-    inner = matrix[..., interior[:, None], interior]
-    coupling = np.linalg.solve(inner, coupled)
-    schur = matrix[..., boundary[:, None], boundary] - np.swapaxes(coupled, -1, -2) @ coupling
+def condense(matrix: np.ndarray, kept: int) -> tuple[np.ndarray, Condensation]:
+    """S = Kbb - Kbi inverse(Kii) Kib for symmetric matrices (..., n, n); b is the first `kept`."""
+    coupled = matrix[..., kept:, :kept]
+    inverse = np.linalg.inv(matrix[..., kept:, kept:])
+    coupling = inverse @ coupled
+    schur = matrix[..., :kept, :kept] - np.swapaxes(coupled, -1, -2) @ coupling
     schur = (schur + np.swapaxes(schur, -1, -2)) / 2
-    return schur, Condensation(boundary, interior, coupling, np.linalg.inv(inner))
+    return schur, Condensation(coupling, inverse)
 
 
 def assemble_blocks(element_matrices: np.ndarray, reference: ReferenceFacet) -> np.ndarray:
-    """Sum element matrices (F, 3, m^2, 9d, 9d) into block matrices (F, 3, nd, nd)."""
+    """Sum element matrices (F, 3, m^2, 9d, 9d) into block matrices (F, 3, nd, nd).
+
+    Nodes on a block's outline come first, those inside it last.
+    """
     dofs = element_matrices.shape[-1] // 9
-    size = reference.blocks.shape[1] * dofs
+    order = np.concatenate([reference.block_boundary, reference.block_interior])
+    position = np.argsort(order)
+    size = len(order) * dofs
     total = np.zeros((*element_matrices.shape[:2], size, size))
     for k, nodes in enumerate(reference.elements):
-        place = spread_dofs(nodes, dofs)
+        place = spread_dofs(position[nodes], dofs)
         total[..., place[:, None], place] += element_matrices[:, :, k]
     return total
 
 
-def condense_facets(element_matrices: np.ndarray, reference: ReferenceFacet) -> Substructure:
-    """Condense element matrices (F, 3, m^2, 9d, 9d) onto the facet outlines."""
+def condense_facets(
+    element_matrices: np.ndarray, reference: ReferenceFacet
+) -> tuple[np.ndarray, Substructure]:
+    """Condense element matrices (F, 3, m^2, 9d, 9d) onto the facet outlines.
+
+    Returns the stiffness of the outlines (F, 12m d, 12m d) and the way back from them.
+    """
     dofs = element_matrices.shape[-1] // 9
-    outer = spread_dofs(reference.block_boundary, dofs)
-    inner = spread_dofs(reference.block_interior, dofs)
-    block, blocks = condense(assemble_blocks(element_matrices, reference), outer, inner)
-    kept = reference.outline + reference.spokes
-    facet = np.zeros((len(block), kept * dofs, kept * dofs))
+    edge = len(reference.block_boundary) * dofs
+    block, blocks = condense(assemble_blocks(element_matrices, reference), edge)
+    kept = (reference.outline + reference.spokes) * dofs
+    facet = np.zeros((len(block), kept, kept))
     for k in range(3):
         place = spread_dofs(reference.blocks[k][reference.block_boundary], dofs)
         facet[:, place[:, None], place] += block[:, k]
-    border = np.arange(reference.outline * dofs)
-    middle = np.arange(reference.outline * dofs, kept * dofs)
-    stiffness, spokes = condense(facet, border, middle)
-    return Substructure(dofs, reference, blocks, spokes, stiffness)
+    stiffness, spokes = condense(facet, reference.outline * dofs)
+    return stiffness, Substructure(dofs, reference, blocks, spokes)
 
 
-def join_parts(parts: Sequence[Substructure]) -> Substructure:
-    """One substructure from those of successive ranges of facets."""
+def allocate(part: Substructure, count: int) -> Substructure:
+    """An empty substructure of `count` facets, with the sizes of `part`."""
 
-    def join(name: str) -> Condensation:
-        """One of the two steps of all parts."""
-        steps = [getattr(part, name) for part in parts]
-        return Condensation(
-            steps[0].boundary,
-            steps[0].interior,
-            np.concatenate([step.coupling for step in steps]),
-            np.concatenate([step.inverse for step in steps]),
-        )
+    def like(step: Condensation) -> Condensation:
+        """The arrays of one step."""
+        arrays = (step.coupling, step.inverse)
+        return Condensation(*(np.empty((count, *array.shape[1:])) for array in arrays))
 
-    stiffness = np.concatenate([part.stiffness for part in parts])
-    first = parts[0]
-    return Substructure(first.dofs, first.reference, join("blocks"), join("spokes"), stiffness)
+    return Substructure(part.dofs, part.reference, like(part.blocks), like(part.spokes))
+
+
+def store(whole: Substructure, facets: np.ndarray, part: Substructure) -> None:
+    """Put the condensation of some facets in its place in that of all."""
+    for into, step in ((whole.blocks, part.blocks), (whole.spokes, part.spokes)):
+        into.coupling[facets] = step.coupling
+        into.inverse[facets] = step.inverse
 
 
 def reduce_load(part: Substructure, load: np.ndarray) -> np.ndarray:
@@ -101,35 +118,28 @@ def reduce_load(part: Substructure, load: np.ndarray) -> np.ndarray:
 
     Entries of the outline are then the condensed load; the inner ones serve `recover_facets`.
     """
+    border, kept = part.border, part.kept
     total = load.copy()
-    for k in range(3):
-        inner, outer = _block_dofs(part, k)
-        coupling = np.swapaxes(part.blocks.coupling[:, k], -1, -2)
-        total[:, outer] -= coupling @ total[:, inner]
-    spokes = part.spokes
-    total[:, spokes.boundary] -= np.swapaxes(spokes.coupling, -1, -2) @ total[:, spokes.interior]
+    push = np.swapaxes(part.blocks.coupling, -1, -2) @ _view_blocks(part, total)
+    for k, outer in enumerate(part.outer):
+        total[:, outer] -= push[:, k]
+    total[:, :border] -= np.swapaxes(part.spokes.coupling, -1, -2) @ total[:, border:kept]
     return total
 
 
 def recover_facets(part: Substructure, reduced: np.ndarray, outline: np.ndarray) -> np.ndarray:
     """Values at all facet nodes (F, R d, c) from outline values and loads of `reduce_load`."""
+    border, kept = part.border, part.kept
     full = np.empty_like(reduced)
-    spokes = part.spokes
-    full[:, spokes.boundary] = outline
-    full[:, spokes.interior] = (
-        spokes.inverse @ reduced[:, spokes.interior] - spokes.coupling @ outline
-    )
-    for k in range(3):
-        inner, outer = _block_dofs(part, k)
-        full[:, inner] = (
-            part.blocks.inverse[:, k] @ reduced[:, inner]
-            - part.blocks.coupling[:, k] @ full[:, outer]
-        )
+    full[:, :border] = outline
+    full[:, border:kept] = part.spokes.inverse @ reduced[:, border:kept]
+    full[:, border:kept] -= part.spokes.coupling @ outline
+    inner = part.blocks.inverse @ _view_blocks(part, reduced)
+    inner -= part.blocks.coupling @ full[:, part.outer]
+    full[:, kept:] = inner.reshape(len(full), -1, full.shape[-1])
     return full
 
 
-def _block_dofs(part: Substructure, k: int) -> tuple[np.ndarray, np.ndarray]:
-    """Facet dofs inside and on the outline of block k, in the order of its condensation."""
-    nodes, reference = part.reference.blocks[k], part.reference
-    inner = spread_dofs(nodes[reference.block_interior], part.dofs)
-    return inner, spread_dofs(nodes[reference.block_boundary], part.dofs)
+def _view_blocks(part: Substructure, values: np.ndarray) -> np.ndarray:
+    """Values (F, R d, c) inside the three blocks: (F, 3, i, c)."""
+    return values[:, part.kept :].reshape(len(values), 3, -1, values.shape[-1])

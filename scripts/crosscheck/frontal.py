@@ -5,10 +5,14 @@ branch the unknowns that no facet outside it touches are eliminated from a dense
 Source: Duff and Reid, ACM Trans. Math. Softw. 9 (1983) 302-325. On the dense couplings of
 condensed facets it takes a tenth of the time of SuperLU, which stays as a check in the tests.
 
-What two halves share and what ends there is found first, so that each half leaves its rows in the
-order in which the front above takes them: adding two halves up is then a matter of slices.
+The order is planned with groups of unknowns (a vertex, the inside of an edge), which are the same
+on every mesh of a shell: one plan serves them all. What two halves share and what ends there is
+known before any number, so that each half leaves its rows in the order in which the front above
+takes them: adding two halves up is then a matter of slices. The matrices are taken one by one, so
+that they need not all stand in memory.
 """
 
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 import numpy as np
@@ -30,9 +34,9 @@ class NotPositiveDefinite(ValueError):
 
 @dataclass(frozen=True)
 class Front:
-    """One elimination: unknowns `inner` in terms of `outer`."""
+    """One elimination: unknowns `inner` in terms of `outer`, both by their turn in it."""
 
-    inner: np.ndarray
+    inner: slice
     outer: np.ndarray
     inverse: np.ndarray  # (i, i) inverse(L) of the front's inner block
     coupling: np.ndarray  # (i, o) inverse(L) Kio
@@ -40,139 +44,224 @@ class Front:
 
 @dataclass(frozen=True)
 class Factor:
-    """All fronts, children before parents."""
+    """All fronts, children before parents; `order` are the equations as they are eliminated."""
 
-    size: int
+    order: np.ndarray
     fronts: tuple[Front, ...]
 
     def solve(self, load: np.ndarray) -> np.ndarray:
         """x = inverse(K) b for b (size,) or (size, c)."""
-        x = np.array(load, dtype=float)
+        # cases as rows: products of a front with few long rows run at the speed of memory
+        x = np.ascontiguousarray(load[self.order].reshape(len(self.order), -1).T)
         for front in self.fronts:
-            part = front.inverse @ x[front.inner]
-            x[front.inner] = part
-            x[front.outer] -= front.coupling.T @ part
+            own = x[:, front.inner] @ front.inverse.T
+            x[:, front.inner] = own
+            x[:, front.outer] -= own @ front.coupling
         for front in reversed(self.fronts):
-            right = x[front.inner] - front.coupling @ x[front.outer]
-            x[front.inner] = front.inverse.T @ right
-        return x
+            right = x[:, front.inner] - x[:, front.outer] @ front.coupling.T
+            x[:, front.inner] = right @ front.inverse
+        result = np.zeros((len(load), len(x)))
+        result[self.order] = x.T
+        return result.reshape(load.shape)
 
 
 @dataclass
 class Branch:
-    """A part of the facets before any number is known.
+    """A part of the facets, by groups of unknowns.
 
-    `outer` are the equations left over, in the order in which they stand after the elimination;
-    `sort` rearranges them to the order of the branch above. `only` (2,) and `shared` count those
-    of one half and of both.
+    `outer` are the groups left over, in the order in which they stand after the elimination;
+    `sort` rearranges them to the order of the branch above. `only` and `shared` count those of
+    one half and of both.
     """
 
-    inner: np.ndarray
-    outer: np.ndarray
-    met: np.ndarray  # how often each of `outer` was met
+    inner: list[int]
+    outer: list[int]
+    met: dict[int, int]  # how many facets of the part touch each of `outer`
     halves: tuple["Branch", ...] = ()
     facet: int = -1
-    rows: np.ndarray | None = None  # of a facet: its rows, inner ones first
     only: tuple[int, int] = (0, 0)
     shared: int = 0
-    sort: np.ndarray | None = None
+    sort: list[int] | None = None
 
 
-def factor_sum(matrices: np.ndarray, place: np.ndarray, centres: np.ndarray, size: int) -> Factor:
-    """Factor K = sum of `matrices` (F, n, n) at equations `place` (F, n), -1 for none.
+@dataclass(frozen=True)
+class Plan:
+    """The order of elimination: the tree's root, and the facets in the order they are needed."""
 
-    `centres` (F, 3) guide the bisection. Raises NotPositiveDefinite.
+    root: Branch
+    facets: np.ndarray  # (F,)
+
+
+@dataclass(frozen=True)
+class Spans:
+    """The equations of each group: `count` of them, from `start`; both (G,)."""
+
+    start: np.ndarray
+    count: np.ndarray
+
+    def list_equations(self, groups: list[int]) -> np.ndarray:
+        """The equations of some groups, one group after the other."""
+        return _list_ranges(self.start[groups], self.count[groups])
+
+    def count_equations(self, groups: list[int]) -> int:
+        """How many those are."""
+        return int(self.count[groups].sum())
+
+    def sort_equations(self, branch: Branch) -> np.ndarray:
+        """`sort` of a branch for the equations of its `outer` groups."""
+        count = self.count[branch.outer]
+        return _list_ranges((np.cumsum(count) - count)[branch.sort], count[branch.sort])
+
+
+def _list_ranges(start: np.ndarray, count: np.ndarray) -> np.ndarray:
+    """start, start + 1, ... of each range, one range after the other."""
+    end = np.cumsum(count)
+    return np.repeat(start - end + count, count) + np.arange(end[-1] if len(end) else 0)
+
+
+def plan_elimination(groups: np.ndarray, links: np.ndarray, centres: np.ndarray) -> Plan:
+    """Plan for facets with `groups` (F, g); each stands in a facet once.
+
+    Those in `links` (F, l), -1 for none, and `centres` (F, 3) guide the bisection.
     """
-    root = _plan(bisect(place, centres), place, _Counter(place, size))
-    fronts: list[Front] = []
-    _eliminate(root, matrices, fronts)
-    return Factor(size, tuple(fronts))
+    tree = bisect(links, centres)
+    uses = np.bincount(groups.ravel()).tolist()
+    facets: list[int] = []
+    root = _plan(tree, np.sort(groups, axis=1).tolist(), uses, facets)
+    return Plan(root, np.array(facets))
 
 
-class _Counter:
-    """How many facets touch each equation, and a table to look equations up in."""
-
-    def __init__(self, place: np.ndarray, size: int) -> None:
-        self.uses = np.bincount(place[place >= 0], minlength=size)
-        self.table = np.full(size, -1)
-
-    def find(self, wanted: np.ndarray, among: np.ndarray) -> np.ndarray:
-        """Position of each wanted equation among others, -1 for none."""
-        self.table[among] = np.arange(len(among))
-        found = self.table[wanted]
-        self.table[among] = -1
-        return found
-
-
-def _plan(tree: Tree, place: np.ndarray, counter: _Counter) -> Branch:
-    """Find what each part eliminates and leaves, without numbers."""
+def _plan(tree: Tree, groups: list[list[int]], uses: list[int], facets: list[int]) -> Branch:
+    """Find what each part eliminates and leaves; append its facets."""
     if isinstance(tree, int):
-        own = place[tree]
-        ends = (own >= 0) & (counter.uses[own] == 1)
-        stays = (own >= 0) & ~ends
-        rows = np.concatenate([np.flatnonzero(ends), np.flatnonzero(stays)])
-        met = np.ones(int(stays.sum()), int)
-        return Branch(own[ends], own[stays], met, facet=tree, rows=rows)
-    first, second = (_plan(half, place, counter) for half in tree)
-    at = counter.find(second.outer, first.outer)  # in the first half
-    back = np.flatnonzero(at >= 0)  # in the second half
-    at = at[back]
-    met = first.met[at] + second.met[back]
-    ends = met == counter.uses[second.outer[back]]
-    mine, yours = (
-        np.setdiff1d(np.arange(len(half.outer)), taken, assume_unique=True)
-        for half, taken in ((first, at), (second, back))
-    )
-    first.sort = np.concatenate([at[ends], mine, at[~ends]])
-    second.sort = np.concatenate([back[ends], back[~ends], yours])
-    outer = [first.outer[mine], first.outer[at[~ends]], second.outer[yours]]
-    met = [first.met[mine], met[~ends], second.met[yours]]
+        facets.append(tree)
+        inner = [g for g in groups[tree] if uses[g] == 1]
+        outer = [g for g in groups[tree] if uses[g] > 1]
+        return Branch(inner, outer, dict.fromkeys(outer, 1), facet=tree)
+    first, second = (_plan(half, groups, uses, facets) for half in tree)
+    at = {group: k for k, group in enumerate(first.outer)}
+    met = first.met | second.met
+    ends: list[tuple[int, int]] = []  # places in the first and in the second half
+    stays: list[tuple[int, int]] = []
+    for k, group in enumerate(second.outer):
+        if group in at:
+            met[group] = first.met[group] + second.met[group]
+            (ends if met[group] == uses[group] else stays).append((at[group], k))
+    mine = [k for k, group in enumerate(first.outer) if group not in second.met]
+    yours = [k for k, group in enumerate(second.outer) if group not in at]
+    first.sort = [k for k, _ in ends] + mine + [k for k, _ in stays]
+    second.sort = [k for _, k in ends] + [k for _, k in stays] + yours
+    inner = [first.outer[k] for k, _ in ends]
+    outer = [first.outer[k] for k in first.sort[len(ends) :]] + [second.outer[k] for k in yours]
     return Branch(
-        first.outer[at[ends]],
-        np.concatenate(outer),
-        np.concatenate(met),
+        inner,
+        outer,
+        {group: met[group] for group in outer},
         (first, second),
         only=(len(mine), len(yours)),
-        shared=int((~ends).sum()),
+        shared=len(stays),
     )
 
 
-def _eliminate(branch: Branch, matrices: np.ndarray, fronts: list[Front]) -> np.ndarray | None:
-    """Eliminate a branch; append its fronts; return what is left, as the branch above takes it."""
-    inner = len(branch.inner)
-    if branch.facet >= 0:
-        front = matrices[branch.facet][branch.rows[:, None], branch.rows]
-        blocks = [front[:inner, :inner], front[:inner, inner:], front[inner:, inner:]]
-    else:
-        blocks = _add_halves(branch, [_eliminate(half, matrices, fronts) for half in branch.halves])
-    pivot, coupling, rest = (np.ascontiguousarray(block) for block in blocks)
-    if inner:
-        fronts.append(_eliminate_front(branch, pivot, coupling, rest))
-    if branch.sort is None:
-        return None
-    return np.take(np.take(rest, branch.sort, axis=0), branch.sort, axis=1)
+def factor_sum(
+    matrices: Iterable[np.ndarray], plan: Plan, place: np.ndarray, spans: Spans
+) -> Factor:
+    """Factor K = sum of matrices (n, n) at equations `place` (F, n), -1 for none.
+
+    `matrices` come in the order of `plan.facets`; `spans` says which equations a group stands for,
+    rising with the groups. Raises NotPositiveDefinite.
+    """
+    branches = list(_list_branches(plan.root))
+    order = np.concatenate([spans.list_equations(branch.inner) for branch in branches])
+    size = int(spans.count.sum())
+    turn = np.full(size, -1)  # when an equation is eliminated: never, if no facet has it
+    turn[order] = np.arange(len(order))
+    # rows of a facet that end in it come first, as in its branch
+    alone = np.bincount(place[place >= 0], minlength=size) == 1
+    key = np.where(place < 0, -1, place + np.where(alone[place], 0, size))
+    rows, none = np.argsort(key, axis=1), (place < 0).sum(axis=1)
+    work = _Elimination(iter(matrices), spans, turn, rows, none, [])
+    work.eliminate(plan.root)
+    return Factor(order, tuple(work.fronts))
 
 
-def _add_halves(branch: Branch, halves: list[np.ndarray]) -> list[np.ndarray]:
-    """Sum two halves into the blocks inner-inner, inner-outer and outer-outer."""
-    (first, second), inner = halves, len(branch.inner)
-    end = branch.only[0] + branch.shared
-    size = end + branch.only[1]
+def _list_branches(branch: Branch) -> Iterator[Branch]:
+    """All branches, halves before the whole."""
+    for half in branch.halves:
+        yield from _list_branches(half)
+    yield branch
+
+
+@dataclass
+class _Elimination:
+    """What a factorisation needs at every branch, and the fronts that it leaves."""
+
+    matrices: Iterator[np.ndarray]
+    spans: Spans
+    turn: np.ndarray  # (size,) when an equation is eliminated
+    rows: np.ndarray  # (F, n) rows of each facet, those without an equation first
+    none: np.ndarray  # (F,) how many have none
+    fronts: list[Front]
+
+    def eliminate(self, branch: Branch) -> np.ndarray | None:
+        """Eliminate a branch; append its fronts; return the rest, as the branch above takes it."""
+        inner = self.spans.count_equations(branch.inner)
+        if branch.facet >= 0:
+            rows = self.rows[branch.facet, self.none[branch.facet] :]
+            matrix = next(self.matrices)
+            if not inner and branch.sort is not None:
+                return _pick(matrix, rows[self.spans.sort_equations(branch)])
+            front = _pick(matrix, rows)
+            blocks = [front[:inner, :inner], front[:inner, inner:], front[inner:, inner:]]
+        else:
+            sizes = [
+                self.spans.count_equations(branch.outer[part])
+                for part in (
+                    slice(branch.only[0]),
+                    slice(branch.only[0], branch.only[0] + branch.shared),
+                    slice(branch.only[0] + branch.shared, None),
+                )
+            ]
+            blocks = _add_halves(inner, sizes, [self.eliminate(half) for half in branch.halves])
+        pivot, coupling, rest = (np.ascontiguousarray(block) for block in blocks)
+        if inner:
+            start = self.fronts[-1].inner.stop if self.fronts else 0
+            outer = self.turn[self.spans.list_equations(branch.outer)]
+            factors = _eliminate_front(pivot, coupling, rest)
+            self.fronts.append(Front(slice(start, start + inner), outer, *factors))
+        return None if branch.sort is None else _pick(rest, self.spans.sort_equations(branch))
+
+
+def _pick(matrix: np.ndarray, rows: np.ndarray) -> np.ndarray:
+    """Some rows of a matrix, and the same columns."""
+    return matrix.take(rows, axis=0).take(rows, axis=1)
+
+
+def _add_halves(inner: int, sizes: list[int], halves: list[np.ndarray]) -> list[np.ndarray]:
+    """Sum two halves into the blocks inner-inner, inner-outer and outer-outer.
+
+    `sizes` are the outer equations of the first half only, of both, and of the second only.
+    """
+    first, second = halves
+    only, end, size = np.cumsum(sizes).tolist()
     coupling, rest = np.empty((inner, size)), np.empty((size, size))
     coupling[:, :end] = first[:inner, inner:]
     coupling[:, end:] = 0.0
-    coupling[:, branch.only[0] :] += second[:inner, inner:]
+    coupling[:, only:] += second[:inner, inner:]
     rest[:end, :end] = first[inner:, inner:]
     rest[end:] = 0.0
     rest[:end, end:] = 0.0
-    rest[branch.only[0] :, branch.only[0] :] += second[inner:, inner:]
+    rest[only:, only:] += second[inner:, inner:]
     return [first[:inner, :inner] + second[:inner, :inner], coupling, rest]
 
 
 def _eliminate_front(
-    branch: Branch, pivot: np.ndarray, coupling: np.ndarray, rest: np.ndarray
-) -> Front:
-    """Eliminate the inner equations; `rest` becomes the Schur complement, `coupling` the factor."""
+    pivot: np.ndarray, coupling: np.ndarray, rest: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Eliminate the inner equations: inverse(L) and inverse(L) Kio, which overwrites `coupling`.
+
+    `rest` becomes the Schur complement.
+    """
     diagonal = np.diag(pivot).copy()
     lower, failed = dpotrf(pivot.T, lower=1, clean=1, overwrite_a=1)
     if failed or (np.diag(lower) ** 2 <= ROUNDING * diagonal).any():
@@ -183,7 +272,7 @@ def _eliminate_front(
         dsyrk(-1.0, coupling.T, 1.0, rest.T, lower=1, overwrite_c=1)
         _mirror(rest)
     inverse, _ = dtrtri(lower, lower=1, overwrite_c=1)
-    return Front(branch.inner, branch.outer, inverse, coupling)
+    return inverse, coupling
 
 
 def _mirror(matrix: np.ndarray) -> None:

@@ -20,7 +20,8 @@ the corners, where the folds meet, and an even mesh of as many elements has ten 
 class ReferenceFacet:
     """The node layout that every facet repeats, for m elements along a block's side.
 
-    Nodes are ordered: outline (12 m, from corner 0 round by 1 and 2), spokes, block interiors.
+    Nodes are ordered: outline (12 m, from corner 0 round by 1 and 2), spokes, then what is inside
+    each block, block after block in the order of `block_interior`.
     """
 
     barycentric: np.ndarray  # (R, 3)
@@ -78,7 +79,10 @@ def build_reference_facet(m: int, grading: float = GRADING) -> ReferenceFacet:
     x, y, z = points.T
     around = np.where(z < 1e-9, y, np.where(x < 1e-9, 1 + z, 2 + x))  # 0..3 along the outline
     kind = np.where(on_outline, 0, np.where(on_spoke, 1, 2))
-    key = np.column_stack([kind, np.round(np.where(kind == 0, around, 0), 9), np.round(points, 9)])
+    inside = np.repeat(np.arange(3), side * side)  # block by block, and there row by row
+    group = np.select([kind == 0, kind == 2], [np.round(around, 9), inside], 0)
+    along = np.where(kind[:, None] == 2, np.tile(place, 3)[:, None], np.round(points, 9))
+    key = np.column_stack([kind, group, along])
     _, first, inverse = np.unique(key, axis=0, return_index=True, return_inverse=True)
     start = np.arange(0, side - 1, 2)
     corner = (start[:, None] * side + start).ravel()

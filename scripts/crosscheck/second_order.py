@@ -10,8 +10,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from crosscheck.stress import compute_membrane_forces
-from crosscheck.system import Response, System, solve_local
+from crosscheck.stress import compute_gradients, compute_membrane_forces
+from crosscheck.system import (
+    Discretisation,
+    Response,
+    System,
+    complete_response,
+    solve_facets,
+    turn_forces,
+)
 
 TOLERANCE = 1e-6  # last change of displacements
 ITERATIONS = 80
@@ -33,29 +40,67 @@ class SecondOrder:
 
 
 def compute_geometric_matrices(system: System, local: np.ndarray) -> np.ndarray:
-    """Integral of N_ab grad_a grad_b over each element: (F, 3, m^2, c, 9, 9) from (F, R, 5, c)."""
-    grid = system.grid
-    gradient = np.swapaxes(grid.quadrature.gradient, -1, -2)  # point, x|y, node
-    flat = gradient.reshape(*gradient.shape[:3], 18, 9)
-    result = []
-    for case in range(local.shape[-1]):
-        force = compute_membrane_forces(grid, system.section, local[..., case])
-        force = force * grid.quadrature.area[..., None]
-        tensor = force[..., [[0, 2], [2, 1]]]  # point, 2, 2
-        weighted = (tensor @ gradient).reshape(flat.shape)
-        result.append(np.swapaxes(flat, -1, -2) @ weighted)
-    return np.stack(result, axis=3)
+    """Integral of N_ab grad_a grad_b over each element: (c, F, 3, m^2, 9, 9) from (F, R, 5, c)."""
+    quadrature = system.grid.quadrature
+    change = _find_gradients(system.grid, local)
+    force = compute_membrane_forces(system.section, change)
+    force = np.moveaxis(force * quadrature.area[..., None, None, None], -1, 0)
+    flat = quadrature.gradient.reshape(*quadrature.gradient.shape[:3], 18, 9)
+    result = np.empty((len(force), *flat.shape[:3], 9, 9))
+    for case, tensor in enumerate(force):
+        weighted = (tensor @ quadrature.gradient).reshape(flat.shape)
+        np.matmul(np.swapaxes(flat, -1, -2), weighted, out=result[case])
+    return result
+
+
+def _find_gradients(grid: Discretisation, local: np.ndarray) -> np.ndarray:
+    """Gradients of (u, v, w) at the Gauss points: (F, 3, m^2, 9, 2, 3, c) from (F, R, 5, c)."""
+    count, places, _, cases = local.shape
+    change = compute_gradients(grid, local[:, :, :3].reshape(count, places, 3 * cases))
+    return change.reshape(*change.shape[:-1], 3, cases)
 
 
 def apply_geometric(system: System, matrices: np.ndarray, local: np.ndarray) -> np.ndarray:
-    """Kg u as forces on the facets' own nodes: (F, R, 5, c), not yet summed between facets."""
-    elements = system.grid.elements
-    moved = np.moveaxis(local[:, elements, :3], -1, -3)  # F, 3, m^2, c, 9, 3
-    force = np.moveaxis(matrices @ moved, -3, -1)  # F, 3, m^2, 9, 3, c
-    total = np.zeros_like(local)
+    """Kg u as forces on the facets' own nodes: (F, R, 5, c b), not yet summed between facets.
+
+    `local` (F, R, 5, c b) holds b vectors in a row for each of the c cases of `matrices`.
+    """
+    cases, count, places = len(matrices), *local.shape[:2]
+    moved = np.moveaxis(local[:, :, :3].reshape(count, places, 3, cases, -1), 3, 0)
+    moved = moved.reshape(cases, count, places, -1)
+    force = matrices @ np.take(moved, system.grid.elements, axis=2)
+    total = np.moveaxis(_sum_elements(system.grid, force).reshape(*moved.shape[:3], 3, -1), 0, 3)
+    result = np.zeros_like(local)
+    result[:, :, :3] = total.reshape(count, places, 3, -1)
+    return result
+
+
+def apply_own_geometric(system: System, local: np.ndarray) -> np.ndarray:
+    """Kg(N(u)) u for each column of (F, R, 5, c), as `apply_geometric` gives it.
+
+    From stress to force at the Gauss points, since the matrices would serve once only.
+    """
+    quadrature = system.grid.quadrature
+    change = _find_gradients(system.grid, local)
+    force = compute_membrane_forces(system.section, change)
+    pull = np.empty_like(change)
+    for a in range(2):
+        across = [force[..., a, b, None, :] * change[..., b, :, :] for b in range(2)]
+        np.add(*across, out=pull[..., a, :, :])
+    pull *= quadrature.area[..., None, None, None]
+    flat = quadrature.gradient.reshape(*quadrature.gradient.shape[:3], 18, 9)
+    result = np.zeros_like(local)
+    nodal = np.swapaxes(flat, -1, -2) @ pull.reshape(*flat.shape[:-1], -1)
+    result[:, :, :3] = _sum_elements(system.grid, nodal).reshape(result[:, :, :3].shape)
+    return result
+
+
+def _sum_elements(grid: Discretisation, force: np.ndarray) -> np.ndarray:
+    """Forces on element nodes (..., 3, m^2, 9, k) as those on the facets' nodes (..., R, k)."""
+    total = np.zeros((*force.shape[:-4], grid.mesh.facet_nodes.shape[1], force.shape[-1]))
     for block in range(3):
-        for k, nodes in enumerate(elements[block]):
-            total[:, nodes, :3] += force[:, block, k]
+        for k, nodes in enumerate(grid.elements[block]):
+            total[..., nodes, :] += force[..., block, k, :, :]
     return total
 
 
@@ -67,21 +112,19 @@ def solve_second_order(
     `forces` (F, R, 3, c) act on facet nodes; `first` is the first-order answer, where it starts.
     Raises NotSettled.
     """
-    local = np.einsum("fij,frjc->fric", system.grid.axes, forces, optimize=True)
-    load = np.concatenate([local, np.zeros_like(local[:, :, :2])], axis=2)
-    now = first.local
+    load, now = turn_forces(system.grid, forces), first.local
     history: list[tuple[np.ndarray, np.ndarray]] = []
     for count in range(1, ITERATIONS + 1):
-        matrices = compute_geometric_matrices(system, now)
-        response = solve_local(system, load - apply_geometric(system, matrices, now))
-        residual = response.local - now
-        size = _norm(response.local)
+        solution = solve_facets(system, load - apply_own_geometric(system, now))
+        new = solution.local
+        residual = new - now
+        size = _norm(new)
         if not np.isfinite(size).all() or (size > DIVERGED * _norm(first.local)).any():
             break
         change = _norm(residual) / size
         if (change < tolerance).all():
-            return SecondOrder(response, count, change)
-        history = [*history[-MEMORY:], (response.local, residual)]
+            return SecondOrder(complete_response(system, solution), count, change)
+        history = [*history[-MEMORY:], (new, residual)]
         now = _accelerate(history)
     raise NotSettled(f"after {count} iterations no state is found")
 

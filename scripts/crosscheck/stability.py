@@ -10,7 +10,8 @@ from crosscheck.analysis import (
     sum_loads,
 )
 from crosscheck.buckling import compute_buckling_factors
-from crosscheck.comparison import SECOND_ORDER
+from crosscheck.comparison import NOT_SETTLED, SECOND_ORDER
+from crosscheck.frontal import Plan
 from crosscheck.model import Model
 from crosscheck.second_order import NotSettled, solve_second_order
 from crosscheck.system import Response
@@ -20,10 +21,18 @@ LARGEST_FACTOR = 1e6  # beyond it nothing buckles; a number that JSON can hold
 
 
 def analyse_mesh(
-    model: Model, subdivisions: int, shear_factor: float, buckling: bool, second_order: bool
+    model: Model,
+    subdivisions: int,
+    shear_factor: float,
+    buckling: bool,
+    second_order: bool,
+    plan: Plan | None = None,
 ) -> dict[str, dict[str, object]]:
-    """All values of one mesh, by combination; second-order ones under `<combination> Th.II`."""
-    analysis = analyse_model(model, subdivisions, shear_factor)
+    """All values of one mesh, by combination; second-order ones under `<combination> Th.II`.
+
+    `plan` is that of `plan_facets`, which all meshes of a model share.
+    """
+    analysis = analyse_model(model, subdivisions, shear_factor, plan)
     values = list_values(analysis)
     if buckling or second_order:
         for name, entry in list_stability_values(analysis, second_order).items():
@@ -32,15 +41,18 @@ def analyse_mesh(
 
 
 def list_stability_values(analysis: Analysis, second_order: bool) -> dict[str, dict[str, object]]:
-    """The factor of each combination and, if asked for and below buckling, second-order values."""
+    """The factor of each combination and, if asked for and below buckling, second-order values.
+
+    A factor that has not settled is NOT_SETTLED in place of a number.
+    """
     names = list(analysis.model.compared_combinations)
-    factors = compute_buckling_factors(analysis.system, analysis.response)
+    found = compute_buckling_factors(analysis.system, analysis.response)
     result: dict[str, dict[str, object]] = {
-        name: {"buckling_factor": float(min(factor, LARGEST_FACTOR))}
-        for name, factor in zip(names, factors, strict=True)
+        name: {"buckling_factor": float(min(factor, LARGEST_FACTOR)) if settled else NOT_SETTLED}
+        for name, factor, settled in zip(names, found.factor, found.settled, strict=True)
     }
     if second_order:
-        result |= _list_second_order(analysis, np.flatnonzero(factors > 1.0))
+        result |= _list_second_order(analysis, np.flatnonzero(found.factor > 1.0))
     return result
 
 

@@ -7,12 +7,17 @@ from crosscheck.model import Material
 from crosscheck.system import Discretisation, Section
 
 
+def compute_gradients(grid: Discretisation, values: np.ndarray) -> np.ndarray:
+    """d/dx and d/dy at the Gauss points of k fields (F, R, k): (F, 3, m^2, 9, 2, k)."""
+    slope = grid.quadrature.gradient  # point, x|y, node
+    at = np.take(values, grid.elements, axis=1)  # (F, 3, m^2, 9, k)
+    change = slope.reshape(*slope.shape[:3], 18, 9) @ at
+    return change.reshape(*slope.shape[:-1], -1)
+
+
 def compute_strains(grid: Discretisation, local: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Membrane strain and curvature (xx, yy, 2xy): (F, 3, m^2, 9, 3) each, from (F, R, 5)."""
-    at = local[:, grid.elements]  # (F, 3, m^2, 9, 5)
-    slope = np.swapaxes(grid.quadrature.gradient, -1, -2)  # point, x|y, node
-    shape = (*slope.shape[:-3], 18, 9)
-    change = (slope.reshape(shape) @ at).reshape(*slope.shape[:-1], 5)  # d(u..by)/d(x|y)
+    change = compute_gradients(grid, local)
 
     def strain(u: int, v: int) -> np.ndarray:
         """(xx, yy, 2xy) of the fields in columns u and v."""
@@ -22,13 +27,20 @@ def compute_strains(grid: Discretisation, local: np.ndarray) -> tuple[np.ndarray
     return strain(0, 1), strain(3, 4)
 
 
-def compute_membrane_forces(
-    grid: Discretisation, section: Section, local: np.ndarray
-) -> np.ndarray:
-    """N = t D eps (xx, yy, xy) at the Gauss points, tension positive: (F, 3, m^2, 9, 3) kN/m."""
-    elasticity = section.youngs_modulus * build_plane_elasticity(section.poissons_ratio)
-    thickness = section.thickness[:, None, None, None, None]
-    return compute_strains(grid, local)[0] @ elasticity * thickness
+def compute_membrane_forces(section: Section, change: np.ndarray) -> np.ndarray:
+    """N = t D eps at the Gauss points, tension positive: (F, 3, m^2, 9, 2, 2, c) in kN/m.
+
+    `change` (F, 3, m^2, 9, 2, u|v|w, c) are displacement gradients.
+    """
+    stiff = section.youngs_modulus * section.thickness[:, None, None, None, None]
+    elasticity = build_plane_elasticity(section.poissons_ratio)
+    xx, yy = change[..., 0, 0, :], change[..., 1, 1, :]
+    force = np.empty((*change.shape[:4], 2, 2, change.shape[-1]))
+    force[..., 0, 0, :] = stiff * (elasticity[0, 0] * xx + elasticity[0, 1] * yy)
+    force[..., 1, 1, :] = stiff * (elasticity[1, 0] * xx + elasticity[1, 1] * yy)
+    shear = stiff * elasticity[2, 2] * (change[..., 1, 0, :] + change[..., 0, 1, :])
+    force[..., 0, 1, :] = force[..., 1, 0, :] = shear
+    return force
 
 
 def compute_utilization(

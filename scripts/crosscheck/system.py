@@ -1,6 +1,7 @@
 """The shell as one system of equations: facets condensed, skeleton factored, loads solved."""
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 
 import numpy as np
 from scipy.sparse import coo_matrix, csc_matrix
@@ -13,18 +14,19 @@ from crosscheck.element import (
 )
 from crosscheck.facet import (
     Substructure,
+    allocate,
     condense_facets,
-    join_parts,
     recover_facets,
     reduce_load,
+    store,
 )
 from crosscheck.frames import build_facet_axes, build_skeleton, transform_outline
-from crosscheck.frontal import Factor, factor_sum
+from crosscheck.frontal import Factor, Plan, Spans, factor_sum, plan_elimination
 from crosscheck.mesh import GRADING, Mesh, build_mesh
 
 SHEAR_FACTOR = 100.0
 """Thin limit: shear deformation is that of a plate ten times thinner. 5/6 is the physical plate."""
-CHUNK = 256  # facets condensed at once, to bound the memory
+CHUNK = 32  # facets condensed at once: their matrices stay near the processor
 STABILITY = 0.03
 """Shear compliance added in proportion to (element size / thickness)^2, which vanishes with the
 mesh and keeps skewed elements from locking. Source: Lyly, Stenberg, Vihinen, Comput. Methods Appl.
@@ -44,6 +46,8 @@ class Discretisation:
     turn: np.ndarray  # (F, 12m, 5, 6) local unknowns from skeleton unknowns
     equations: np.ndarray  # (F, 12m, 6), -1 where held
     size: int
+    spans: Spans  # equations of each vertex and edge
+    plan: Plan
 
 
 @dataclass(frozen=True)
@@ -64,6 +68,7 @@ class System:
     section: Section
     membrane: Substructure
     plate: Substructure
+    holding: np.ndarray  # (F, 3, 72m) sum over a facet's held nodes of their rows, global x, y, z
     factor: Factor
 
 
@@ -76,17 +81,34 @@ class Response:
     reaction_sum: np.ndarray
 
 
+def plan_facets(vertices: np.ndarray, facets: np.ndarray) -> Plan:
+    """The order in which the unknowns of vertices and edges are eliminated, for every mesh."""
+    sides = np.sort(np.stack([facets, np.roll(facets, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
+    _, edge = np.unique(sides, axis=0, return_inverse=True)  # numbered as `build_mesh` does
+    edge = edge.reshape(-1, 3)
+    groups = np.hstack([facets, len(vertices) + edge])
+    return plan_elimination(groups, edge, vertices[facets].mean(axis=1))
+
+
 def discretise(
-    vertices: np.ndarray, facets: np.ndarray, hold, subdivisions: int, grading: float = GRADING
+    vertices: np.ndarray,
+    facets: np.ndarray,
+    hold,
+    subdivisions: int,
+    grading: float = GRADING,
+    plan: Plan | None = None,
 ) -> Discretisation:
-    """Mesh the facets; `hold(mesh)` tells which skeleton translations (S, 3) are fixed."""
+    """Mesh the facets; `hold(mesh)` tells which skeleton translations (S, 3) are fixed.
+
+    `plan` is that of `plan_facets`, made here where it is not given.
+    """
     mesh = build_mesh(vertices, facets, subdivisions, grading)
     axes = build_facet_axes(vertices, facets)
     offset = mesh.nodes[mesh.facet_nodes] - vertices[facets[:, 0]][:, None]
     elements = mesh.reference.blocks[:, mesh.reference.elements]
     coordinates = (offset @ np.swapaxes(axes[:, :2], 1, 2))[:, elements]
     skeleton = build_skeleton(mesh, axes)
-    equations, size = number_equations(mesh, skeleton.flat, hold(mesh))
+    equations, spans = number_equations(mesh, skeleton.flat, hold(mesh))
     return Discretisation(
         mesh,
         axes,
@@ -95,17 +117,26 @@ def discretise(
         integrate_elements(coordinates),
         transform_outline(skeleton),
         equations,
-        size,
+        int(spans.count.sum()),
+        spans,
+        plan or plan_facets(vertices, facets),
     )
 
 
-def number_equations(mesh: Mesh, flat: np.ndarray, held: np.ndarray) -> tuple[np.ndarray, int]:
-    """Equation numbers (F, 12m, 6) of the outline unknowns; `held` (S, 3) are translations."""
+def number_equations(mesh: Mesh, flat: np.ndarray, held: np.ndarray) -> tuple[np.ndarray, Spans]:
+    """Equation numbers (F, 12m, 6) of the outline unknowns, and which belong to a vertex or edge.
+
+    `held` (S, 3) are translations. Vertices come first, then the insides of the edges.
+    """
     free = np.ones((mesh.skeleton, 6), bool)
     free[:, :3] = ~held
     free[:, 5] = ~flat
     number = np.where(free.ravel(), np.cumsum(free.ravel()) - 1, -1).reshape(free.shape)
-    return number[mesh.facet_nodes[:, : mesh.reference.outline]], int(free.sum())
+    own = free.sum(axis=1)
+    vertices = mesh.edge_nodes[0, 1]  # the first node inside an edge
+    count = np.concatenate([own[:vertices], own[vertices:].reshape(len(mesh.edges), -1).sum(1)])
+    spans = Spans(np.cumsum(count) - count, count)
+    return number[mesh.facet_nodes[:, : mesh.reference.outline]], spans
 
 
 def hold_edges(supported: np.ndarray):
@@ -123,7 +154,7 @@ def hold_edges(supported: np.ndarray):
 
 
 def compute_element_matrices(
-    grid: Discretisation, section: Section, part: slice = slice(None)
+    grid: Discretisation, section: Section, part: slice | np.ndarray = slice(None)
 ) -> tuple[np.ndarray, np.ndarray]:
     """Membrane (F, 3, m^2, 18, 18) and plate (F, 3, m^2, 27, 27) stiffness of some facets."""
     whole = grid.quadrature
@@ -150,21 +181,46 @@ def build_system(
 
     Raises NotPositiveDefinite for a mechanism or a buckled state.
     """
-    parts, outline = [], []
-    for start in range(0, len(grid.axes), CHUNK):
-        part = slice(start, start + CHUNK)
-        matrices = compute_element_matrices(grid, section, part)
-        if geometric is not None:
-            matrices = tuple(a + b[part] for a, b in zip(matrices, geometric, strict=True))
-        fields = [condense_facets(field, grid.mesh.reference) for field in matrices]
-        local = join_fields(fields[0].stiffness, fields[1].stiffness)
-        outline.append(turn_stiffness(local, grid.turn[part]))
-        parts.append(fields)
-    membrane, plate = (join_parts(fields) for fields in zip(*parts, strict=True))
-    outline = np.concatenate(outline)
-    place = grid.equations.reshape(len(outline), -1)
-    centres = grid.mesh.nodes[grid.mesh.facet_nodes].mean(axis=1)
-    return System(grid, section, membrane, plate, factor_sum(outline, place, centres, grid.size))
+    work = _Condenser(grid, section, geometric)
+    place = grid.equations.reshape(len(grid.equations), -1)
+    factor = factor_sum(work.condense(), grid.plan, place, grid.spans)
+    return System(grid, section, *work.fields, work.holding, factor)
+
+
+@dataclass
+class _Condenser:
+    """Condenses facets when the factorisation needs them: few of their matrices exist at a time."""
+
+    grid: Discretisation
+    section: Section
+    geometric: tuple[np.ndarray, np.ndarray] | None
+    fields: list[Substructure] = field(default_factory=list)
+    holding: np.ndarray | None = None
+
+    def condense(self) -> Iterator[np.ndarray]:
+        """Yield the skeleton stiffness (72m, 72m) of one facet after the other."""
+        grid = self.grid
+        held = (grid.equations[:, :, :3] < 0).astype(float)
+        count, nodes = held.shape[:2]
+        self.holding = np.zeros((count, 3, 6 * nodes))
+        for start in range(0, count, CHUNK):
+            part = grid.plan.facets[start : start + CHUNK]
+            matrices = compute_element_matrices(grid, self.section, part)
+            if self.geometric is not None:
+                pairs = zip(matrices, self.geometric, strict=True)
+                matrices = tuple(a + b[part] for a, b in pairs)
+            outlines = []
+            for k, elements in enumerate(matrices):
+                outline, field_part = condense_facets(elements, grid.mesh.reference)
+                if start == 0:
+                    self.fields.append(allocate(field_part, count))
+                store(self.fields[k], part, field_part)
+                outlines.append(outline)
+            total = turn_stiffness(join_fields(*outlines), grid.turn[part])
+            for k in np.flatnonzero(held[part].any(axis=(1, 2))):
+                rows = total[k].reshape(nodes, 6, -1)[:, :3]
+                self.holding[part[k]] = np.einsum("nx,nxk->xk", held[part[k]], rows)
+            yield from total
 
 
 def join_fields(membrane: np.ndarray, plate: np.ndarray) -> np.ndarray:
@@ -196,39 +252,53 @@ def assemble_skeleton(matrices: np.ndarray, equations: np.ndarray, size: int) ->
 
 def solve_loads(system: System, forces: np.ndarray) -> Response:
     """Displacements under facet node forces (F, R, 3, c) in kN, global axes."""
-    grid = system.grid
+    return solve_local(system, turn_forces(system.grid, forces))
+
+
+def turn_forces(grid: Discretisation, forces: np.ndarray) -> np.ndarray:
+    """Forces (F, R, 3, c) in global axes as local ones on (u, v, w, bx, by): (F, R, 5, c)."""
     local = np.einsum("fij,frjc->fric", grid.axes, forces, optimize=True)
-    return solve_local(system, np.concatenate([local, np.zeros_like(local[:, :, :2])], axis=2))
+    return np.concatenate([local, np.zeros_like(local[:, :, :2])], axis=2)
 
 
 def solve_local(system: System, local: np.ndarray) -> Response:
     """Displacements under local forces (F, R, 5, c) on (u, v, w, bx, by)."""
-    full, values, border = _solve_facets(system, local)
-    displacement = np.einsum("fij,fric->frjc", system.grid.axes, full[:, :, :3], optimize=True)
-    return Response(full, displacement, _sum_reactions(system, values, border))
+    solution = solve_facets(system, local)
+    return complete_response(system, solution)
 
 
-def solve_vectors(system: System, local: np.ndarray) -> np.ndarray:
-    """Local displacements (F, R, 5, c) alone, as `solve_local` has them."""
-    return _solve_facets(system, local)[0]
+@dataclass(frozen=True)
+class Solution:
+    """Local values at all facet nodes; global values and condensed loads on the outline."""
+
+    local: np.ndarray  # (F, R, 5, c)
+    outline: np.ndarray  # (F, 12m, 6, c)
+    load: np.ndarray  # (F, 12m, 6, c)
 
 
-def _solve_facets(system: System, local: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Values at all facet nodes, those on the outline, and the loads condensed onto it."""
+def complete_response(system: System, solution: Solution) -> Response:
+    """Global displacements and sum of reactions, which an iteration needs once only."""
+    axes = system.grid.axes
+    displacement = np.einsum("fij,fric->frjc", axes, solution.local[:, :, :3], optimize=True)
+    return Response(solution.local, displacement, _sum_reactions(system, solution))
+
+
+def solve_facets(system: System, local: np.ndarray) -> Solution:
+    """Displacements under local forces (F, R, 5, c), without what follows from them."""
     grid, outline = system.grid, system.grid.mesh.reference.outline
     count, places, _, cases = local.shape
     membrane = reduce_load(system.membrane, local[:, :, :2].reshape(count, -1, cases))
     plate = reduce_load(system.plate, local[:, :, 2:].reshape(count, -1, cases))
-    border = _join(membrane, plate, outline)
-    load = _gather(grid, np.swapaxes(grid.turn, -1, -2) @ border)
-    solution = np.vstack([system.factor.solve(load), np.zeros((1, cases))])
-    values = grid.turn @ solution[grid.equations]
+    load = np.swapaxes(grid.turn, -1, -2) @ _join(membrane, plate, outline)
+    found = np.vstack([system.factor.solve(_gather(grid, load)), np.zeros((1, cases))])
+    found = found[grid.equations]
+    values = grid.turn @ found
     full = _join(
         recover_facets(system.membrane, membrane, values[:, :, :2].reshape(count, -1, cases)),
         recover_facets(system.plate, plate, values[:, :, 2:].reshape(count, -1, cases)),
         places,
     )
-    return full, values, border
+    return Solution(full, found, load)
 
 
 def _join(membrane: np.ndarray, plate: np.ndarray, nodes: int) -> np.ndarray:
@@ -245,14 +315,9 @@ def _gather(grid: Discretisation, outline: np.ndarray) -> np.ndarray:
     return np.array([np.bincount(place, x, grid.size + 1)[: grid.size] for x in columns]).T
 
 
-def _sum_reactions(system: System, values: np.ndarray, border: np.ndarray) -> np.ndarray:
+def _sum_reactions(system: System, solution: Solution) -> np.ndarray:
     """Sum over held translations of K u - F: (3, c) in kN."""
-    count, nodes, _, cases = values.shape
-    inner = _join(
-        system.membrane.stiffness @ values[:, :, :2].reshape(count, -1, cases),
-        system.plate.stiffness @ values[:, :, 2:].reshape(count, -1, cases),
-        nodes,
-    )
-    unbalanced = np.swapaxes(system.grid.turn, -1, -2) @ (inner - border)
+    count, _, _, cases = solution.outline.shape
     held = system.grid.equations[:, :, :3] < 0
-    return np.einsum("fnxc,fnx->xc", unbalanced[:, :, :3], held)
+    inner = system.holding @ solution.outline.reshape(count, -1, cases)
+    return inner.sum(axis=0) - np.einsum("fnxc,fnx->xc", solution.load[:, :, :3], held)

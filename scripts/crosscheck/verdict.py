@@ -7,6 +7,10 @@ from crosscheck.comparison import SECOND_ORDER, Code, build_independent, compare
 from crosscheck.errors import MechanismError
 from crosscheck.model import Model
 from crosscheck.stability import analyse_mesh
+from crosscheck.system import plan_facets
+
+KEPT = ("independent_subdivisions", "quantities", "not_settled")
+"""Of a first comparison that a second one replaces."""
 
 
 def compare_codes(
@@ -21,17 +25,22 @@ def compare_codes(
 
     Codes that differ are compared once more after the coarsest of these meshes has made way for a
     finer one: buckling modes of slender panels are still far from their limit on the meshes that
-    suffice elsewhere, while what differs for another reason differs on every mesh.
+    suffice elsewhere, while what differs for another reason differs on every mesh. The second
+    comparison stands; what the first one found is kept under `first`.
     """
     buckling = stability and "buckling_factor" in primary.names
     second = stability and any(SECOND_ORDER in name for name in primary.values)
     try:
-        runs = [analyse_mesh(model, m, shear_factor, buckling, second) for m in meshes]
+        plan = plan_facets(model.vertices, model.facets)
+        how = (shear_factor, buckling, second, plan)
+        runs = [analyse_mesh(model, m, *how) for m in meshes]
         result = compare(primary, build_independent(meshes, runs), tolerance)
         if not result["pass"]:
+            first = {key: result[key] for key in KEPT}
             meshes = [*meshes[1:], meshes[-1] + 1]
-            runs = [*runs[1:], analyse_mesh(model, meshes[-1], shear_factor, buckling, second)]
+            runs = [*runs[1:], analyse_mesh(model, meshes[-1], *how)]
             result = compare(primary, build_independent(meshes, runs), tolerance)
+            result["first"] = first
     except MechanismError as error:
         return leave_out(False, str(error))
     return result
@@ -39,5 +48,6 @@ def compare_codes(
 
 def leave_out(passed: bool | None, reason: str) -> dict[str, Any]:
     """A comparison without quantities, and why."""
-    meshes = {"primary_subdivisions": [], "independent_subdivisions": []}
-    return {"pass": passed, "reason": reason, "quantities": {}, "not_compared": [], **meshes}
+    empty = {"not_compared": [], "not_settled": []}
+    empty |= {"primary_subdivisions": [], "independent_subdivisions": []}
+    return {"pass": passed, "reason": reason, "quantities": {}, **empty}

@@ -1,6 +1,6 @@
 """Levenberg-Marquardt on sparse normal equations."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -34,12 +34,14 @@ def minimise_terms(
     step_tolerance: float,
     damping: float = 1e-3,
     equations: NormalEquations | None = None,
+    retract: Callable[[np.ndarray], np.ndarray] = lambda trial: trial,
 ) -> Minimum:
     """argmin over vertices (V, 3) of 1/2 sum r2, from `start`.
 
     Marquardt's damping on the diagonal, with Nielsen's update (IMM report 05, DTU, 1999). Stops
     when the cost falls by less than `cost_tolerance` of itself, or no vertex moves further than
-    `step_tolerance` [m].
+    `step_tolerance` [m]. `retract` brings each trial (V, 3) back onto constraints that the terms
+    know only to first order, before its cost is counted.
     """
     equations = equations or NormalEquations([t.columns for t in terms], start.size)
     vertices, growth = start, 2.0
@@ -52,7 +54,7 @@ def minimise_terms(
         if step is None:
             damping, growth, trial_cost = damping * growth, growth * 2, np.inf
         else:
-            trial = vertices + step.reshape(-1, 3)
+            trial = retract(vertices + step.reshape(-1, 3))
             rows = [term.evaluate(trial) for term in terms]
             trial_cost = half_squares(rows)
         if trial_cost < cost:

@@ -65,26 +65,41 @@ def fold_cell(pattern: Miura, fold_angle: float) -> Cell:
     )
 
 
-def place_cells(cell: Cell, zigzags: int, strips: int) -> np.ndarray:
-    """X(i, j) = (j S, i L + (j odd) V, (i odd) H): vertices (V, 3) [m]."""
+def place_cells(
+    cell: Cell, zigzags: int, strips: int, widths: np.ndarray | None = None
+) -> np.ndarray:
+    """X(i, j) = (j S, i L + (j odd) V, (i odd) H): vertices (V, 3) [m].
+
+    `widths` (strips - 1,) scales each strip's S and V. The vertices keep their angles, so the
+    sheet folds flat as before, but its zig-zags run along a curve.
+    """
     row, column = np.divmod(np.arange(zigzags * strips), strips)
+    across, ahead = column * 1.0, column % 2 * 1.0
+    if widths is not None:
+        turns = np.where(np.arange(strips - 1) % 2 == 0, widths, -widths)
+        across, ahead = (np.append(0.0, np.cumsum(w))[column] for w in (widths, turns))
     return np.column_stack(
         [
-            column * cell.across_strips,
-            row * cell.across_zigzags + (column % 2) * cell.offset,
+            across * cell.across_strips,
+            row * cell.across_zigzags + ahead * cell.offset,
             (row % 2) * cell.height,
         ]
     )
 
 
-def flat_vertices(pattern: Miura) -> np.ndarray:
+def flat_vertices(pattern: Miura, widths: np.ndarray | None = None) -> np.ndarray:
     """x = j b sin g, y = i a + (j odd) b cos g, z = 0: vertices (V, 3) [m]."""
-    return folded_vertices(pattern, 0.0)
+    return folded_vertices(pattern, 0.0, widths)
 
 
-def folded_vertices(pattern: Miura, fold_angle: float) -> np.ndarray:
-    """Vertices (V, 3) [m] of the folded planar state at `fold_angle` [rad]."""
-    return place_cells(fold_cell(pattern, fold_angle), pattern.zigzags, pattern.strips)
+def folded_vertices(
+    pattern: Miura, fold_angle: float, widths: np.ndarray | None = None
+) -> np.ndarray:
+    """Vertices (V, 3) [m] of the folded planar state at `fold_angle` [rad].
+
+    `widths` (strips - 1,) are the strips' widths over `side_b`, all 1 unless given.
+    """
+    return place_cells(fold_cell(pattern, fold_angle), pattern.zigzags, pattern.strips, widths)
 
 
 def rest_fold_angle(sector_angle: float, poisson: float = -1.0) -> float:

@@ -40,22 +40,25 @@ class Sheet:
         return self.rest if self.unrolled is None else self.unrolled
 
 
-def make_miura_sheet(pattern: Miura, frames: int = 9, poisson: float = -1.0) -> Sheet:
+def make_miura_sheet(
+    pattern: Miura, frames: int = 9, poisson: float = -1.0, widths: np.ndarray | None = None
+) -> Sheet:
     """Standard Miura sheet with `frames` states of its path, flat to nearly folded flat.
 
-    Its rest state is that whose in-plane Poisson's ratio is `poisson`.
+    Its rest state is that whose in-plane Poisson's ratio is `poisson`; `widths` (strips - 1,)
+    are its strips' widths over `side_b`, all 1 unless given.
     """
     rest = rest_fold_angle(pattern.sector_angle, poisson)
     angles = np.linspace(0, math.pi / 2, frames + 1)[:-1] if frames else []
     path = tuple(
-        Frame(f"folded {math.degrees(angle):.1f} deg", folded_vertices(pattern, angle))
+        Frame(f"folded {math.degrees(angle):.1f} deg", folded_vertices(pattern, angle, widths))
         for angle in angles
     )
     return Sheet(
         kind="miura",
         grid=pattern.grid,
-        flat=flat_vertices(pattern),
-        rest=folded_vertices(pattern, rest),
+        flat=flat_vertices(pattern, widths),
+        rest=folded_vertices(pattern, rest, widths),
         path=path,
         settings={
             "side_a_m": pattern.side_a,
