@@ -26,7 +26,7 @@ from crosscheck.mesh import GRADING, Mesh, build_mesh
 
 SHEAR_FACTOR = 100.0
 """Thin limit: shear deformation is that of a plate ten times thinner. 5/6 is the physical plate."""
-CHUNK = 32  # facets condensed at once: their matrices stay near the processor
+CHUNK = 16  # facets condensed at once: their matrices stay near the processor
 STABILITY = 0.03
 """Shear compliance added in proportion to (element size / thickness)^2, which vanishes with the
 mesh and keeps skewed elements from locking. Source: Lyly, Stenberg, Vihinen, Comput. Methods Appl.

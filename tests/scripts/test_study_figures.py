@@ -1,10 +1,11 @@
-"""Rule study_figures: charts and pages from result folders."""
+"""Rules study_figures: charts, and all_designs: pages, from result folders."""
 
 import csv
 
 import numpy as np
 from PIL import Image
 
+import all_designs
 import study_figures
 from foldshell.figures.study_data import NUMBERS
 from unit.figures.figure_cases import COMBINATIONS, write_case
@@ -39,11 +40,12 @@ def test_all_figures_are_written(tmp_path):
     """Also with a design without utilization, and for comparisons that nobody is in."""
     write_results(tmp_path, all={}, strip={"utilization": None, "move": lambda x: np.nan * x})
     charts = {n: [tmp_path / f"{n}.png", tmp_path / f"{n}.svg"] for n in study_figures.CHARTS}
-    sheets = {name: tmp_path / f"all_{name}.png" for name in ("thickness", "utilization")}
-    study_figures.main(tmp_path / "summary.csv", tmp_path, charts, sheets, settings=SETTINGS)
+    sheets = {name: tmp_path / f"{name}.png" for name in ("all_thickness", "all_utilization")}
+    study_figures.main(tmp_path / "summary.csv", tmp_path, charts, settings=SETTINGS)
+    all_designs.main(tmp_path / "summary.csv", tmp_path, sheets, settings=SETTINGS)
     for paths in charts.values():
         assert all(path.stat().st_size > 1000 for path in paths)
-    page = np.asarray(Image.open(sheets["thickness"]))
+    page = np.asarray(Image.open(sheets["all_thickness"]))
     assert page.shape[1] == 6 * 400
     tiles = page[90 + 58 : 90 + 58 + 270]
     for k in range(6):

@@ -191,6 +191,7 @@ def save_figure(figure: Figure, paths: Sequence[str | Path]) -> None:
             metadata = {"Date": None} if kind == "svg" else {"Software": None}
             with atomic_path(path) as temporary:
                 figure.savefig(temporary, format=kind, metadata=metadata, dpi=160)
+            figure.set_layout_engine("none")  # as found for the first file
     plt.close(figure)
 
 

@@ -1,7 +1,7 @@
 """What the study's figures compare: rows of summary.csv, sorted into groups and series."""
 
 import csv
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -9,8 +9,11 @@ from typing import Any
 import numpy as np
 
 from foldshell.figures.fields import cell_area
-from foldshell.figures.state import DesignState
+from foldshell.figures.state import DesignState, read_state
 from foldshell.study.errors import InputError
+
+FILES = ("shell/mesh.npz", "folded/folded.npz", "sizing/final.npz", "sizing/final.json")
+"""What figures over all designs read of each."""
 
 NUMBERS = ("span_m", "height_m", "zigzag", "strip", "volume_per_area_m", "utilization_mean",
            "displacement_vertical_max_m")  # fmt: skip
@@ -98,6 +101,15 @@ def read_summary(path: str | Path) -> list[StudyDesign]:
     with Path(path).open(encoding="utf-8", newline="") as stream:
         rows = list(csv.DictReader(stream))
     return [_read_row(path, row) for row in rows]
+
+
+def read_states(
+    path: str | Path, results: str | Path, combinations: Mapping[str, Any]
+) -> Iterator[tuple[StudyDesign, DesignState]]:
+    """Yield each design of summary.csv with its final state, from its folder in `results`."""
+    for design in read_summary(path):
+        files = [Path(results, design.name, file) for file in FILES]
+        yield design, read_state(design.name, *files, combinations)
 
 
 def _read_row(path: str | Path, row: Mapping[str, Any]) -> StudyDesign:

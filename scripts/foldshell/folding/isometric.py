@@ -53,10 +53,10 @@ STEEP_STAGES = (
 # that, folded to that ratio, it measures this share of the target's sections. Found by trial
 # on the study's own 28 m / 28 m designs: the first suits twisted surfaces, the others saddles.
 STEEP_SHEETS = ((82.0, -4.0, 0.89), (76.0, -3.0, 0.93), (74.0, -5.0, 1.0), (72.0, -3.0, 0.81))
-# The last resort on a steep twist: a sheet whose zig-zags run along an S, as strips of even and
-# of odd number change their width against each other, by this share at both ends of a zig-zag
-# and a third of it, the other way, in its middle. The form was read off the widths that gave
-# the least distance with all of them free; 0.6 to 0.7 and 74 to 78 degrees serve as well.
+# (as above) and the change of width: the last resort on a steep twist. Its zig-zags run along an
+# S, as even strips are wider than odd ones by this share at both ends, and narrower by a third
+# of it in the middle. The form was read off the widths that came nearest with all of them free,
+# the numbers are by trial: 28 m / 28 m, 8x32; 74 degrees and a change of 0.6 to 0.7 do as well.
 SWAYED_SHEET, SWAY = (76.0, -6.0, 0.95), 0.65
 # (stretch, attraction, share of the bending weights, fairness), and the weight of the folds'
 # sides: held as hard as the lengths, as in the stages above, they jam the descent.
@@ -189,9 +189,7 @@ def _attempt(
     return Attempt(sheet, solution, distance, _is_crumpled(solution.vertices, sheet, target, least))
 
 
-def _slide(
-    sheet: Sheet, target: Target, settings: FoldSettings, vertices: np.ndarray
-) -> Minimum:
+def _slide(sheet: Sheet, target: Target, settings: FoldSettings, vertices: np.ndarray) -> Minimum:
     """Come nearer to the target without leaving the rest lengths.
 
     Each step (V, 3) is along the lengths to first order, then projected back onto them. Stages

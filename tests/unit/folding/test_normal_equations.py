@@ -57,6 +57,42 @@ def test_rosenbrock_minimum_is_found():
     assert minimum.vertices[0] == pytest.approx([1, 1, 0], abs=1e-8)
 
 
+class _Point:
+    """r = (x - 2, y): nearest point (2, 0)."""
+
+    columns = np.array([[0], [1]])
+
+    def evaluate(self, vertices):
+        return vertices[0, :2] - [2.0, 0.0], np.ones((2, 1))
+
+
+class _Circle:
+    """r = 1e3 (|x| - 1), the constraint as the solver's matrix sees it."""
+
+    columns = np.array([[0, 1]])
+
+    def evaluate(self, vertices):
+        radius = np.linalg.norm(vertices[0, :2])
+        return np.array([1e3 * (radius - 1)]), 1e3 * vertices[:, :2] / radius
+
+
+def test_retracted_steps_stay_on_the_constraint():
+    """Half a turn of a circle to its point next to (2, 0), where weighing alone would creep."""
+    seen = []
+
+    def retract(trial):
+        seen.append(trial / np.linalg.norm(trial))
+        return seen[-1]
+
+    start = np.array([[np.cos(3.0), np.sin(3.0), 0.0]])
+    terms, stop = [_Point(), _Circle()], {"cost_tolerance": 1e-14, "step_tolerance": 1e-12}
+    minimum = minimise_terms(terms, start, max_iterations=30, damping=1e-6, retract=retract, **stop)
+    assert minimum.vertices[0] == pytest.approx([1, 0, 0], abs=1e-6)
+    assert any(minimum.vertices is trial for trial in seen)
+    creeping = minimise_terms(terms, start, max_iterations=30, damping=1e-6, **stop)
+    assert np.linalg.norm(creeping.vertices[0] - [1, 0, 0]) > 0.1
+
+
 def test_limit_on_iterations_is_not_called_convergence():
     minimum = minimise_terms(
         [_Rosenbrock()], np.array([[-1.2, 1.0, 0.0]]),

@@ -105,6 +105,22 @@ def test_poissons_ratio_is_the_slope_of_the_path(pattern):
     assert -strain_l / strain_s == pytest.approx(expected, rel=1e-7)
 
 
+def test_strips_of_unequal_width_fold_as_equal_ones_do():
+    """Zig-zags along a curve: same vertex angles, so rigid and flat-foldable all the same."""
+    pattern = PATTERNS[1]
+    grid, widths = pattern.grid, np.array([1.6, 0.3, 1.1, 0.9, 0.4, 1.7])
+    flat = flat_vertices(pattern, widths)
+    for angle in PATH[:-1]:
+        folded = folded_vertices(pattern, angle, widths)
+        assert np.abs(_edge_lengths(folded, grid) - _edge_lengths(flat, grid)).max() < 1e-12
+        assert np.abs(measure_folds(folded, grid)[grid.neutral]).max() < 1e-12
+        assert np.abs(flat_foldability_residual(folded, grid)).max() < 1e-12
+    zigzag = _edge_lengths(flat, grid)[: grid.strips - 1]
+    assert zigzag == pytest.approx(pattern.side_b * widths, rel=1e-14)
+    same = folded_vertices(pattern, 0.7, np.ones(6))
+    assert same == pytest.approx(folded_vertices(pattern, 0.7), abs=1e-14)
+
+
 def test_rest_state_measures_the_lengths_it_was_sized_for():
     pattern = size_miura(30.0, 28.0, math.radians(60), 15, 16)
     rest = rest_fold_angle(pattern.sector_angle)
