@@ -40,6 +40,7 @@ def run_in_forks(server):
 
 
 onstart:
+    RUN["started"] = True
     if workflow.local_exec:
         # To keep to 100 job starts a second, Snakemake 9 wakes its scheduler every second once more
         # for each job that has ended: after some hundred jobs that takes half a core. Jobs of this

@@ -23,8 +23,29 @@ def memory_before_last(wildcards):
     return [f"{folder}/memory.npz"] if number > 0 else []
 
 
-REPORTING = "--report" in sys.argv
-"""No job will run: the files that exist are all there is, and need not be followed one by one."""
+RUN = {"started": False}
+"""Whether jobs run already; `onstart` says so."""
+
+
+def goes_on(path):
+    """Tell whether an analysis asks for another one. A file that cannot be read does not."""
+    try:
+        return json.loads(Path(path).read_text())["verdict"] == "continue"
+    except (OSError, ValueError, KeyError, TypeError):
+        return False
+
+
+def found(design, first):
+    """Return the analysis.json that exist from iteration `first` on, up to the end of the loop."""
+    files = []
+    for number in range(first, 100):
+        path = f"{RESULTS}/{design}/sizing/{number:02d}/analysis.json"
+        if not Path(path).exists():
+            break
+        files.append(path)
+        if not goes_on(path):
+            break
+    return files
 
 
 def iterations(wildcards):
@@ -33,21 +54,18 @@ def iterations(wildcards):
     A file that cannot be read ends the list; `size` says what is wrong with it. An analysis that
     is still to be made is returned as what it is waited for. Leaving that to Snakemake, which
     does the same with the exception, makes it look at all loops twice after each analysis.
+    Before jobs run, all that a former run has left is returned at once: Snakemake then looks at
+    a finished study three times, where following it analysis by analysis took thirty looks. What
+    of it has to be made anew is followed one by one as soon as the first of it is made.
     """
     files = []
     for number in range(100):
-        if REPORTING:
-            files.append(f"{RESULTS}/{wildcards.design}/sizing/{number:02d}/analysis.json")
-        else:
-            try:
-                step = checkpoints.analyse.get(design=wildcards.design, iteration=f"{number:02d}")
-            except IncompleteCheckpointException as missing:
-                return [missing.targetfile]
-            files.append(step.output.json)
         try:
-            going_on = json.loads(Path(files[-1]).read_text())["verdict"] == "continue"
-        except (OSError, ValueError, KeyError, TypeError):
-            going_on = False
-        if not going_on:
+            step = checkpoints.analyse.get(design=wildcards.design, iteration=f"{number:02d}")
+        except IncompleteCheckpointException as missing:
+            former = [] if RUN["started"] else found(wildcards.design, number)
+            return former or [missing.targetfile]
+        files.append(step.output.json)
+        if not goes_on(files[-1]):
             break
     return files
