@@ -135,7 +135,7 @@ def measure_twist(target: Target) -> float:
 
 
 def sway_widths(strips: int, sway: float) -> np.ndarray:
-    """Widths (strips - 1,) over their mean that bend a zig-zag's course into an S.
+    """Widths (strips - 1,) over `side_b` that bend a zig-zag's course into an S.
 
     1 + e and 1 - e in turn, with e = sway (4 u2 - 1) / 3 for u from -1 to 1 along the zig-zag:
     its mean slope is e / tan(sector angle).
@@ -180,6 +180,12 @@ def _attempt(
         vertices, iterations = minimum.vertices, iterations + minimum.iterations
     lengths = Stretch(sheet.grid.edges, edge_lengths(sheet.flat, sheet.grid.edges), 1.0)
     projected = project_vertices([lengths], vertices)
+    if projected.residual > STRAIN:  # pulled too far to be projected: let the lengths relax alone
+        relaxed = minimise_terms(
+            [lengths], vertices, max_iterations=500, cost_tolerance=0.0, step_tolerance=1e-9
+        )
+        iterations += relaxed.iterations
+        projected = project_vertices([lengths], relaxed.vertices)
     solution = Solution(
         projected.vertices, projected.residual, iterations + projected.iterations,
         f"edge lengths kept to {projected.residual:.1e}",
@@ -200,7 +206,7 @@ def _slide(sheet: Sheet, target: Target, settings: FoldSettings, vertices: np.nd
     return minimise_terms(
         terms, vertices, max_iterations=settings.max_iterations,
         cost_tolerance=settings.tolerance, step_tolerance=1e-9 * target.span,
-        damping=1e-2 / SLIDE[0],  # relative to the lengths' weight: none of it along them
+        damping=1e-2 / SLIDE[0],  # on the diagonal, where the lengths' weight outdoes all else
         retract=lambda trial: project_vertices([lengths], trial).vertices,
     )  # fmt: skip
 

@@ -39,6 +39,11 @@ def test_saddles_are_reached_and_domes_are_not(surface):
     _assert_isometric(surface, 28, 10, 15, 16)
 
 
+def test_a_sheet_pulled_far_from_its_lengths_is_let_go_again():
+    """Steps of least norm alone stop at a strain of 1.5e-2 here, and at 1.1e-2 in 13 m / 5 m."""
+    _assert_isometric("paraboloid", 5, 2, 50, 16)
+
+
 @pytest.mark.slow
 def test_a_steep_twist_takes_another_sheet():
     """Developable all the same: the flat state is the sheet that was folded, not the given one."""
@@ -55,9 +60,18 @@ def test_a_steep_twist_of_long_panels_takes_strips_of_unequal_width():
     sheet, result = _assert_isometric("hypar_twist", 28, 28, 8, 32)
     assert f"unequal width, the best of {len(STEEP_SHEETS) + 1}" in result.reason
     first = result.shape.flat[:32]
-    widths = np.linalg.norm(np.diff(first, axis=0), axis=1)
-    assert widths / widths.mean() == pytest.approx(sway_widths(32, SWAY), rel=1e-2)
+    widths, shares = np.linalg.norm(np.diff(first, axis=0), axis=1), sway_widths(32, SWAY)
+    assert widths / widths[0] == pytest.approx(shares / shares[0], rel=1e-12)
     assert np.abs(flat_foldability_residual(result.shape.flat, sheet.grid)).max() < 1e-12
+
+
+@pytest.mark.slow
+def test_a_saddle_that_misses_its_figure_is_not_called_ok():
+    """A little steeper than the study's: between what is asked here and of the other modes."""
+    result = fold_case("hypar", 28, 29, 15, 16, "isometric")[2]
+    assert 1.6e-3 < result.quality.rms_over_span < 2e-3
+    assert result.state == "not_reached" and "allowed 0.0016" in result.reason
+    assert f"the best of {len(STEEP_SHEETS)}" in result.reason
 
 
 def test_only_a_twisted_target_takes_them_and_its_mirror_image_the_other_way():

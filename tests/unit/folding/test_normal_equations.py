@@ -58,12 +58,12 @@ def test_rosenbrock_minimum_is_found():
 
 
 class _Point:
-    """r = (x - 2, y): nearest point (2, 0)."""
+    """r = (x - 1.2, y): nearest point (1.2, 0)."""
 
     columns = np.array([[0], [1]])
 
     def evaluate(self, vertices):
-        return vertices[0, :2] - [2.0, 0.0], np.ones((2, 1))
+        return vertices[0, :2] - [1.2, 0.0], np.ones((2, 1))
 
 
 class _Circle:
@@ -77,7 +77,7 @@ class _Circle:
 
 
 def test_retracted_steps_stay_on_the_constraint():
-    """Half a turn of a circle to its point next to (2, 0), where weighing alone would creep."""
+    """Half a turn of a circle to its point next to (1.2, 0), where weighing alone would creep."""
     seen = []
 
     def retract(trial):
