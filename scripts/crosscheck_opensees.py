@@ -8,7 +8,7 @@ from crosscheck.comparison import KINDS, build_independent
 from crosscheck.errors import CrosscheckError, report_errors
 from crosscheck.model import read_model
 from crosscheck.opensees import list_opensees_values, open_opensees
-from crosscheck.primary import read_primary
+from crosscheck.primary import read_primary, read_reason
 from crosscheck.reading import write_whole
 
 ORDER = 2.0
@@ -29,6 +29,12 @@ def main(
     rows = []
     for model_path, primary_path in zip(model_paths, primary_paths, strict=True):
         model = read_model(model_path)
+        reason = read_reason(primary_path)
+        if reason is not None:
+            raise CrosscheckError(
+                f"{model.design}: nothing to compare, its supports do not hold it ({reason}): "
+                "allowed are designs with finite displacements"
+            )
         primary = read_primary(primary_path, model.compared_combinations)
         runs = [list_opensees_values(model, n) for n in subdivisions]
         opensees = build_independent(subdivisions, runs, ORDER)

@@ -10,5 +10,5 @@ import os
 
 # The fronts are small: a second BLAS thread costs four times the time. Set before numpy loads.
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
-# Huge pages are emptied whole by the system, for arrays that live for milliseconds: 8 % of the time.
+# Huge pages are cleared whole, for arrays that live for milliseconds: it is 8 % of the time.
 os.environ.setdefault("NUMPY_MADVISE_HUGEPAGE", "0")

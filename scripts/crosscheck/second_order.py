@@ -10,13 +10,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from crosscheck.search import NotSettled, Steps, run_alone
 from crosscheck.stress import compute_gradients, compute_membrane_forces
 from crosscheck.system import (
     Discretisation,
     Response,
     System,
     complete_response,
-    solve_facets,
     turn_forces,
 )
 
@@ -24,10 +24,6 @@ TOLERANCE = 1e-6  # last change of displacements
 ITERATIONS = 80
 MEMORY = 6  # steps that the acceleration looks back
 DIVERGED = 1e6  # times the first-order answer
-
-
-class NotSettled(ValueError):
-    """The iteration found no state: the load is beyond buckling, or next to it."""
 
 
 @dataclass(frozen=True)
@@ -107,15 +103,22 @@ def _sum_elements(grid: Discretisation, force: np.ndarray) -> np.ndarray:
 def solve_second_order(
     system: System, forces: np.ndarray, first: Response, tolerance: float = TOLERANCE
 ) -> SecondOrder:
+    """Find the second-order state by `search_second_order` alone. Raises NotSettled."""
+    return run_alone(system, search_second_order(system, forces, first, tolerance))
+
+
+def search_second_order(
+    system: System, forces: np.ndarray, first: Response, tolerance: float = TOLERANCE
+) -> Steps:
     """Fixed point u <- inverse(K) (F - Kg(N(u)) u), with Anderson acceleration a combination.
 
     `forces` (F, R, 3, c) act on facet nodes; `first` is the first-order answer, where it starts.
-    Raises NotSettled.
+    Returns a SecondOrder, raises NotSettled.
     """
     load, now = turn_forces(system.grid, forces), first.local
     history: list[tuple[np.ndarray, np.ndarray]] = []
     for count in range(1, ITERATIONS + 1):
-        solution = solve_facets(system, load - apply_own_geometric(system, now))
+        solution = yield load - apply_own_geometric(system, now)
         new = solution.local
         residual = new - now
         size = _norm(new)

@@ -9,11 +9,12 @@ from crosscheck.analysis import (
     measure_response,
     sum_loads,
 )
-from crosscheck.buckling import compute_buckling_factors
+from crosscheck.buckling import search_factors
 from crosscheck.comparison import NOT_SETTLED, SECOND_ORDER
 from crosscheck.frontal import Plan
 from crosscheck.model import Model
-from crosscheck.second_order import NotSettled, solve_second_order
+from crosscheck.search import NotSettled, Search, Steps, run_alone, solve_together
+from crosscheck.second_order import SecondOrder, search_second_order
 from crosscheck.system import Response
 
 CHANGE = 1e-5  # at which second order has settled: mesh errors are a thousand times larger
@@ -46,37 +47,56 @@ def list_stability_values(analysis: Analysis, second_order: bool) -> dict[str, d
     A factor that has not settled is NOT_SETTLED in place of a number.
     """
     names = list(analysis.model.compared_combinations)
-    found = compute_buckling_factors(analysis.system, analysis.response)
+    cases, system = np.arange(len(names)), analysis.system
+    searches = [Search(search_factors(system, analysis.response))]
+    if second_order:
+        searches.append(Search(_search_state(analysis, cases)))
+    while searches[0].request is not None:
+        solve_together(system, *searches)
+    found = searches[0].result
     result: dict[str, dict[str, object]] = {
         name: {"buckling_factor": float(min(factor, LARGEST_FACTOR)) if settled else NOT_SETTLED}
         for name, factor, settled in zip(names, found.factor, found.settled, strict=True)
     }
-    if second_order:
-        result |= _list_second_order(analysis, np.flatnonzero(found.factor > 1.0))
-    return result
+    if not second_order:
+        return result
+    below = np.flatnonzero(found.factor > 1.0)
+    if len(below) < len(cases):
+        return result | _list_one_by_one(analysis, below)
+    while searches[1].request is not None:
+        solve_together(system, searches[1])
+    if searches[1].error is not None:
+        return result | _list_one_by_one(analysis, below)
+    return result | _list_second_order(analysis, cases, searches[1].result)
 
 
-def _list_second_order(analysis: Analysis, cases: np.ndarray) -> dict[str, dict[str, object]]:
-    """Second-order values of some combinations: all at once, or those alone that settle alone."""
-    if not len(cases):
-        return {}
-    try:
-        return _solve_combinations(analysis, cases)
-    except NotSettled:
-        apart = [cases[[k]] for k in range(len(cases))] if len(cases) > 1 else []
+def _list_one_by_one(analysis: Analysis, cases: np.ndarray) -> dict[str, dict[str, object]]:
+    """Second-order values of those combinations that settle alone."""
     result = {}
-    for case in apart:
-        result |= _list_second_order(analysis, case)
+    for case in cases:
+        try:
+            state = run_alone(analysis.system, _search_state(analysis, cases[cases == case]))
+        except NotSettled:
+            continue
+        result |= _list_second_order(analysis, cases[cases == case], state)
     return result
 
 
-def _solve_combinations(analysis: Analysis, cases: np.ndarray) -> dict[str, dict[str, object]]:
-    first, names = analysis.response, list(analysis.model.compared_combinations)
+def _search_state(analysis: Analysis, cases: np.ndarray) -> Steps:
+    """The search for the second-order state of some combinations."""
+    first, forces = analysis.response, analysis.forces[..., cases]
     start = Response(
         first.local[..., cases], first.displacement[..., cases], first.reaction_sum[:, cases]
     )
+    return search_second_order(analysis.system, forces, start, CHANGE)
+
+
+def _list_second_order(
+    analysis: Analysis, cases: np.ndarray, found: SecondOrder
+) -> dict[str, dict[str, object]]:
+    """Values of the state found for some combinations."""
+    names, state = list(analysis.model.compared_combinations), found.response
     forces = analysis.forces[..., cases]
-    state = solve_second_order(analysis.system, forces, start, CHANGE).response
     loads = sum_loads(analysis.system.grid, analysis.surface[..., cases])
     return {
         f"{names[case]} {SECOND_ORDER}": measure_response(analysis, state, k, forces[..., k])

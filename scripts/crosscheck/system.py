@@ -26,7 +26,7 @@ from crosscheck.mesh import GRADING, Mesh, build_mesh
 
 SHEAR_FACTOR = 100.0
 """Thin limit: shear deformation is that of a plate ten times thinner. 5/6 is the physical plate."""
-CHUNK = 16  # facets condensed at once: their matrices stay near the processor
+CHUNK = 192  # elements condensed at once: their matrices stay near the processor
 STABILITY = 0.03
 """Shear compliance added in proportion to (element size / thickness)^2, which vanishes with the
 mesh and keeps skewed elements from locking. Source: Lyly, Stenberg, Vihinen, Comput. Methods Appl.
@@ -203,8 +203,9 @@ class _Condenser:
         held = (grid.equations[:, :, :3] < 0).astype(float)
         count, nodes = held.shape[:2]
         self.holding = np.zeros((count, 3, 6 * nodes))
-        for start in range(0, count, CHUNK):
-            part = grid.plan.facets[start : start + CHUNK]
+        chunk = max(1, CHUNK // grid.elements.shape[0] // grid.elements.shape[1])
+        for start in range(0, count, chunk):
+            part = grid.plan.facets[start : start + chunk]
             matrices = compute_element_matrices(grid, self.section, part)
             if self.geometric is not None:
                 pairs = zip(matrices, self.geometric, strict=True)

@@ -135,8 +135,33 @@ def _write_comparison(
             shown = "-" if error is None else 100 * error
             sheet.write(row, column, shown, style["percent" + end])
         row += 1
-    for k, key in enumerate(comparison["not_compared"]):
-        sheet.write(row + 1 + k, 0, f"not compared, given by one code only: {key}", style["text"])
+    for key in comparison["not_compared"]:
+        row += 1
+        sheet.write(row, 0, f"not compared, given by one code only: {key}", style["text"])
+    for key in comparison["not_settled"]:
+        row += 1
+        text = f"not settled within the steps of the independent code: {key}"
+        sheet.write(row, 0, text, style["text_failed"])
+    if "first" in comparison:
+        sheet.write(row + 2, 0, _describe_first(comparison), style["text"])
+
+
+def _describe_first(comparison: Mapping[str, Any]) -> str:
+    """What a first comparison found, which the one on finer meshes replaces."""
+    first = comparison["first"]
+    before, now = (
+        " and ".join(str(m) for m in one["independent_subdivisions"]) for one in (first, comparison)
+    )
+    failed = [
+        f"{key} {100 * entry['relative_difference']:.3g} %"
+        for key, entry in first["quantities"].items()
+        if not entry["pass"]
+    ]
+    failed += [f"{key} not settled" for key in first["not_settled"]]
+    return (
+        f"second comparison, on meshes {now} of the independent code; "
+        f"the first, on {before}, failed: {', '.join(failed)}"
+    )
 
 
 def _write_meshes(

@@ -83,8 +83,18 @@ def test_codes_that_differ_are_compared_on_a_finer_mesh(main, tmp_path, primary_
     assert settled["independent_subdivisions"] == [1, 3]
     limit = settled["quantities"]["S2 work_knm"]["primary"]
     far, near = (abs(value / limit - 1) for value in found)
+    assert "first" not in settled
     main(*paths, subdivisions=[1], tolerance={"work": (far * near) ** 0.5})
-    assert json.loads(paths[2].read_text())["independent_subdivisions"] == [2]
+    result = json.loads(paths[2].read_text())
+    assert result["independent_subdivisions"] == [2]
+    first = result["first"]
+    assert first["independent_subdivisions"] == [1]
+    assert first["quantities"].keys() == result["quantities"].keys()
+    work = first["quantities"]["S2 work_knm"]
+    assert not work["pass"] and work["independent"] == pytest.approx(found[0])
+    sheet = openpyxl.load_workbook(paths[3])["comparison"]
+    texts = [row[0] for row in sheet.values if isinstance(row[0], str)]
+    assert any("second comparison, on meshes 2" in text and "S2 work_knm" in text for text in texts)
 
 
 def test_a_mechanism_is_not_compared_and_says_why(main, tmp_path):

@@ -50,6 +50,17 @@ def test_missing_opensees_is_one_sentence(monkeypatch, tmp_path):
     assert not (tmp_path / "table.csv").exists()
 
 
+def test_a_mechanism_is_one_sentence(monkeypatch, tmp_path, model):
+    """The primary code has no displacements of it, and OpenSees is not asked."""
+    monkeypatch.setattr(crosscheck_opensees, "open_opensees", lambda: None)
+    primary = {"subdivisions": [4, 12], "combinations": {}, "reason": "moves most at node 7"}
+    (tmp_path / "primary.json").write_text(json.dumps(primary))
+    paths = [tmp_path / "model.json"], [tmp_path / "primary.json"], tmp_path / "table.csv"
+    with pytest.raises(CrosscheckError, match=r"test: nothing to compare.*moves most at node 7"):
+        crosscheck_opensees.main(*paths)
+    assert not paths[2].exists()
+
+
 def test_opensees_agrees_on_a_small_roof(tmp_path, model):
     """Flat triangles, 8 and 16 an edge, extrapolated with order 2: within 3 % (measured 1.5 %).
 

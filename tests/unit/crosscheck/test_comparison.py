@@ -129,6 +129,16 @@ def test_what_is_not_compared_is_told_in_the_workbook(tmp_path):
     assert independent.values
 
 
+def test_what_has_not_settled_is_told_in_the_workbook(tmp_path):
+    primary, independent = build_codes()
+    independent.values["S2"]["work_knm"][-1] = None
+    result = compare(primary, independent, {})
+    assert result["not_settled"] == ["S2 work_knm"] and not result["pass"]
+    write_comparison(tmp_path / "c.xlsx", "x", result)
+    texts = [row[0] for row in openpyxl.load_workbook(tmp_path / "c.xlsx")["comparison"].values]
+    assert "not settled within the steps of the independent code: S2 work_knm" in texts
+
+
 def test_the_same_comparison_gives_the_same_bytes(tmp_path):
     result = compare(*build_codes(), {})
     for name in ("a.xlsx", "b.xlsx"):

@@ -6,11 +6,13 @@ from scipy.sparse.linalg import splu
 
 from crosscheck.analysis import analyse_model, list_values
 from crosscheck.errors import CrosscheckError
-from crosscheck.frontal import NotPositiveDefinite, factor_sum
+from crosscheck.facet import condense_facets
+from crosscheck.frontal import NotPositiveDefinite, Spans, factor_sum, plan_elimination
 from crosscheck.mesh import build_mesh
 from crosscheck.model import read_model
 from crosscheck.system import (
     assemble_skeleton,
+    compute_element_matrices,
     hold_edges,
     join_fields,
     turn_stiffness,
@@ -26,9 +28,11 @@ def model(tmp_path):
 def test_fronts_and_superlu_solve_alike(model):
     """Same sum of matrices, two factorisations: equal to the conditioning (1e-8 of the answer)."""
     system = analyse_model(model, 2).system
-    outline = turn_stiffness(
-        join_fields(system.membrane.stiffness, system.plate.stiffness), system.grid.turn
-    )
+    fields = [
+        condense_facets(part, system.grid.mesh.reference)[0]
+        for part in compute_element_matrices(system.grid, system.section)
+    ]
+    outline = turn_stiffness(join_fields(*fields), system.grid.turn)
     matrix = assemble_skeleton(outline, system.grid.equations, system.grid.size)
     load = np.random.default_rng(1).normal(size=(system.grid.size, 3))
     lower = splu(
@@ -45,8 +49,10 @@ def test_fronts_and_superlu_solve_alike(model):
 
 def test_an_indefinite_sum_is_refused():
     matrices = np.array([np.diag([1.0, 1.0]), np.diag([1.0, -2.0])])
+    place = np.array([[0, 1], [0, 1]])
+    plan = plan_elimination(place, place, np.zeros((2, 3)))
     with pytest.raises(NotPositiveDefinite):
-        factor_sum(matrices, np.array([[0, 1], [0, 1]]), np.zeros((2, 3)), 2)
+        factor_sum(matrices[plan.facets], plan, place, Spans(np.arange(2), np.ones(2, int)))
 
 
 def test_a_shell_that_can_move_is_refused(tmp_path):
