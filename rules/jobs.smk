@@ -9,7 +9,7 @@ from forks.client import AVAILABLE, ForkServer, NoForkServer
 FORKED = ["pattern", "fold", "mesh", "start", "analyse", "resize", "group", "size"]
 FORKED += ["neutral_model", "refine", "crosscheck", "draw", "page", "sensitivity", "flat_equal"]
 LOADED = ["snakemake.script", *FORKED, "xlsxwriter", "meshio", "ezdxf"]
-LOADED += ["crosscheck.verdict", "crosscheck.workbook"]
+LOADED += ["foldshell.shell.ready", "cvxopt.amd", "crosscheck.verdict", "crosscheck.workbook"]
 LOADED += ["vtkmodules.vtkRenderingOpenGL2", "vtkmodules.util.numpy_support"]
 
 

@@ -103,8 +103,7 @@ def _find_distinct(
         pair, column = np.nonzero((change > limit) & searching)
         if not len(pair):
             break
-        modes = space.combine(vectors[pair, :, column].T)
-        images = _own_images(apply_cases, modes, factors[:, column])
+        images = space.images(vectors[pair, :, column].T, factors[:, column])
         better = space.extend(images)
         energy = (better * images).sum(axis=0) / values[pair, column] ** 2
         change[pair, column] = np.sqrt(np.maximum(energy - 1, 0))
@@ -139,8 +138,9 @@ class _Subspace:
 
     def __init__(self, solve, apply_cases, cases: int, size: int) -> None:
         self._solve, self._apply = solve, apply_cases
-        # room for more vectors than most searches need, column by column
-        self._room = np.empty((2, ROOM, size))
+        # room for more vectors than most searches need, a vector a row: basis, K times it, and
+        # K_g of every case times it
+        self._room = np.empty((2 + cases, ROOM, size))
         self._count = 0
         self._projected = np.empty((cases, 0, 0))
         self.solves = 0
@@ -149,12 +149,19 @@ class _Subspace:
         """Return the vectors (size, n) that have coefficients (k, n) in the basis."""
         return (coefficients.T @ self._room[0, : self._count]).T
 
+    def images(self, coefficients: np.ndarray, factors: np.ndarray) -> np.ndarray:
+        """Return -K_g(N) x (size, n) of vectors with coefficients (k, n), factors (cases, n)."""
+        total = 0.0
+        for case, share in enumerate(factors, start=2):
+            total = total - (coefficients * share).T @ self._room[case, : self._count]
+        return total.T
+
     def extend(self, forces: np.ndarray) -> np.ndarray:
         """Add Z = K^-1 forces to the basis; return Z as solved."""
         solved = self._solve(forces)
         self.solves += forces.shape[1]
         old = self._count
-        basis, own_forces = self._room[:, :old]
+        basis, own_forces = self._room[:2, :old]
         # rows hold vectors: products of long rows are several times as fast as of long columns
         vectors, forces = np.array(solved.T, order="C"), np.array(forces.T, order="C")
         for _ in range(2):
@@ -172,7 +179,9 @@ class _Subspace:
             self._room = np.concatenate([self._room, np.empty_like(self._room)], axis=1)
         self._room[0, old:new], self._room[1, old:new] = vectors, forces
         self._count = new
-        added = np.matmul(self._room[0, :new], self._apply(vectors.T))
+        applied = self._apply(vectors.T)
+        self._room[2:, old:new] = applied.transpose(0, 2, 1)
+        added = np.matmul(self._room[0, :new], applied)
         grown = np.zeros((len(self._projected), new, new))
         grown[:, :old, :old] = self._projected
         grown[:, :, old:] = added

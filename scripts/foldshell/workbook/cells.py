@@ -89,17 +89,17 @@ class _SheetStream:
         parser.Parse(text.encode(), True)
 
     def _start(self, name: str, attributes: dict[str, str]) -> None:
-        tag = name.rpartition(" ")[2]
-        if tag == "row":
-            self._row = _parse_integer(attributes.get("r"), self._row + 1)
-            self._column = 0
-        elif tag == "c":
+        tag = name[name.rfind(" ") + 1 :]
+        if tag == "c":
             self._attributes, self._value, self._formula = attributes, None, False
             self._locate(attributes.get("r"))
-        elif tag == "f":
-            self._formula = True
         elif tag in ("v", "t"):
             self._text = []
+        elif tag == "f":
+            self._formula = True
+        elif tag == "row":
+            self._row = _parse_integer(attributes.get("r"), self._row + 1)
+            self._column = 0
 
     def _locate(self, reference: str | None) -> None:
         self._count += 1
@@ -111,9 +111,9 @@ class _SheetStream:
         match = _REFERENCE.fullmatch(reference)
         if match is None:
             raise InputError(f"{self._place}: cell {reference!r}: not the name of a cell")
-        self._row = int(match.group(2))
-        self._column = 0
-        for letter in match.group(1):
+        letters, row = match.groups()
+        self._row, self._column = int(row), 0
+        for letter in letters:
             self._column = 26 * self._column + ord(letter) - 64
 
     def _characters(self, text: str) -> None:
@@ -121,16 +121,15 @@ class _SheetStream:
             self._text.append(text)
 
     def _end(self, name: str) -> None:
-        tag = name.rpartition(" ")[2]
-        if tag in ("v", "t") and self._text is not None:
+        tag = name[name.rfind(" ") + 1 :]
+        if tag == "c":
+            if self._value is not None or self._formula:
+                self._finish()
+        elif tag in ("v", "t") and self._text is not None:
             self._value = (self._value or "") + "".join(self._text)
             self._text = None
-        elif tag == "c":
-            self._finish()
 
     def _finish(self) -> None:
-        if self._value is None and not self._formula:
-            return
         kind, value = self._interpret()
         if kind == "text" and not value.strip():
             return
