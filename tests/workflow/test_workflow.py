@@ -160,6 +160,14 @@ def test_a_loop_that_now_ends_sooner_runs_no_analysis_too_many(code, copied, tmp
     assert results(copied) == results(fresh)
 
 
+def test_jobs_that_start_python_anew_give_the_same_results(code, finished, tmp_path):
+    """`jobs.fork` is no setting of the study: not even the hash of the settings changes."""
+    folder = make_study(tmp_path / "anew", settings={"jobs": {"fork": False}})
+    done = run(code, folder, TARGET)
+    assert done.returncode == 0, done.stderr[-3000:]
+    assert results(folder) == results(finished)
+
+
 def test_an_edit_of_a_library_file_two_imports_deep_reruns_what_needs_it(code, copied):
     """analyse imports shell.analysis, which imports shell.stiffness, which imports element."""
     element = code / "scripts/foldshell/shell/element.py"
