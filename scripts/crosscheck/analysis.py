@@ -4,22 +4,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from crosscheck.discretisation import Discretisation, discretise, hold_edges
 from crosscheck.errors import MechanismError
 from crosscheck.frontal import NotPositiveDefinite, Plan
 from crosscheck.loads import combine_cases, compute_surface_loads, distribute_loads
 from crosscheck.model import Model
 from crosscheck.stress import compute_panel_means, compute_percentile, compute_utilization
-from crosscheck.system import (
-    SHEAR_FACTOR,
-    Discretisation,
-    Response,
-    Section,
-    System,
-    build_system,
-    discretise,
-    hold_edges,
-    solve_loads,
-)
+from crosscheck.system import SHEAR_FACTOR, Response, Section, System, build_system, solve_loads
 
 
 @dataclass(frozen=True)

@@ -8,8 +8,8 @@ from collections.abc import Mapping
 
 import numpy as np
 
+from crosscheck.discretisation import Discretisation
 from crosscheck.model import CASES, Model
-from crosscheck.system import Discretisation
 
 
 def compute_surface_loads(model: Model, normal: np.ndarray) -> np.ndarray:

@@ -10,15 +10,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from crosscheck.discretisation import Discretisation
 from crosscheck.search import NotSettled, Steps, run_alone
 from crosscheck.stress import compute_gradients, compute_membrane_forces
-from crosscheck.system import (
-    Discretisation,
-    Response,
-    System,
-    complete_response,
-    turn_forces,
-)
+from crosscheck.system import Response, System, complete_response, turn_forces
 
 TOLERANCE = 1e-6  # last change of displacements
 ITERATIONS = 80

@@ -2,9 +2,10 @@
 
 import numpy as np
 
+from crosscheck.discretisation import Discretisation
 from crosscheck.element import build_plane_elasticity
 from crosscheck.model import Material
-from crosscheck.system import Discretisation, Section
+from crosscheck.system import Section
 
 
 def compute_gradients(grid: Discretisation, values: np.ndarray) -> np.ndarray:

@@ -6,11 +6,11 @@ from dataclasses import dataclass, field
 import numpy as np
 from scipy.sparse import coo_matrix, csc_matrix
 
+from crosscheck.discretisation import Discretisation
 from crosscheck.element import (
     Quadrature,
     compute_plane_stiffness,
     compute_shear_stiffness,
-    integrate_elements,
 )
 from crosscheck.facet import (
     Substructure,
@@ -20,9 +20,7 @@ from crosscheck.facet import (
     reduce_load,
     store,
 )
-from crosscheck.frames import build_facet_axes, build_skeleton, transform_outline
-from crosscheck.frontal import Factor, Plan, Spans, factor_sum, plan_elimination
-from crosscheck.mesh import GRADING, Mesh, build_mesh
+from crosscheck.frontal import Factor, factor_sum
 
 SHEAR_FACTOR = 100.0
 """Thin limit: shear deformation is that of a plate ten times thinner. 5/6 is the physical plate."""
@@ -32,22 +30,6 @@ STABILITY = 0.03
 mesh and keeps skewed elements from locking. Source: Lyly, Stenberg, Vihinen, Comput. Methods Appl.
 Mech. Eng. 110 (1993) 343-357, there 0.1 / (5/6). On the six folded sheets the error at m = 2 falls
 from 3-8 % without it to 1.5 % at most."""
-
-
-@dataclass(frozen=True)
-class Discretisation:
-    """What depends on geometry alone: mesh, facet axes, mapped quadrature."""
-
-    mesh: Mesh
-    axes: np.ndarray  # (F, 3, 3) rows local x, y, normal
-    elements: np.ndarray  # (3, m^2, 9) places in a facet
-    coordinates: np.ndarray  # (F, 3, m^2, 9, 2) m, local
-    quadrature: Quadrature
-    turn: np.ndarray  # (F, 12m, 5, 6) local unknowns from skeleton unknowns
-    equations: np.ndarray  # (F, 12m, 6), -1 where held
-    size: int
-    spans: Spans  # equations of each vertex and edge
-    plan: Plan
 
 
 @dataclass(frozen=True)
@@ -79,78 +61,6 @@ class Response:
     local: np.ndarray
     displacement: np.ndarray  # (F, R, 3, c) global, m
     reaction_sum: np.ndarray
-
-
-def plan_facets(vertices: np.ndarray, facets: np.ndarray) -> Plan:
-    """The order in which the unknowns of vertices and edges are eliminated, for every mesh."""
-    sides = np.sort(np.stack([facets, np.roll(facets, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
-    _, edge = np.unique(sides, axis=0, return_inverse=True)  # numbered as `build_mesh` does
-    edge = edge.reshape(-1, 3)
-    groups = np.hstack([facets, len(vertices) + edge])
-    return plan_elimination(groups, edge, vertices[facets].mean(axis=1))
-
-
-def discretise(
-    vertices: np.ndarray,
-    facets: np.ndarray,
-    hold,
-    subdivisions: int,
-    grading: float = GRADING,
-    plan: Plan | None = None,
-) -> Discretisation:
-    """Mesh the facets; `hold(mesh)` tells which skeleton translations (S, 3) are fixed.
-
-    `plan` is that of `plan_facets`, made here where it is not given.
-    """
-    mesh = build_mesh(vertices, facets, subdivisions, grading)
-    axes = build_facet_axes(vertices, facets)
-    offset = mesh.nodes[mesh.facet_nodes] - vertices[facets[:, 0]][:, None]
-    elements = mesh.reference.blocks[:, mesh.reference.elements]
-    coordinates = (offset @ np.swapaxes(axes[:, :2], 1, 2))[:, elements]
-    skeleton = build_skeleton(mesh, axes)
-    equations, spans = number_equations(mesh, skeleton.flat, hold(mesh))
-    return Discretisation(
-        mesh,
-        axes,
-        elements,
-        coordinates,
-        integrate_elements(coordinates),
-        transform_outline(skeleton),
-        equations,
-        int(spans.count.sum()),
-        spans,
-        plan or plan_facets(vertices, facets),
-    )
-
-
-def number_equations(mesh: Mesh, flat: np.ndarray, held: np.ndarray) -> tuple[np.ndarray, Spans]:
-    """Equation numbers (F, 12m, 6) of the outline unknowns, and which belong to a vertex or edge.
-
-    `held` (S, 3) are translations. Vertices come first, then the insides of the edges.
-    """
-    free = np.ones((mesh.skeleton, 6), bool)
-    free[:, :3] = ~held
-    free[:, 5] = ~flat
-    number = np.where(free.ravel(), np.cumsum(free.ravel()) - 1, -1).reshape(free.shape)
-    own = free.sum(axis=1)
-    vertices = mesh.edge_nodes[0, 1]  # the first node inside an edge
-    count = np.concatenate([own[:vertices], own[vertices:].reshape(len(mesh.edges), -1).sum(1)])
-    spans = Spans(np.cumsum(count) - count, count)
-    return number[mesh.facet_nodes[:, : mesh.reference.outline]], spans
-
-
-def hold_edges(supported: np.ndarray):
-    """Pins (no translation) at every mesh node on the given vertex pairs."""
-
-    def hold(mesh: Mesh) -> np.ndarray:
-        """Held translations of the nodes on the outlines of facets: (N, 3)."""
-        pairs = {tuple(sorted(pair)) for pair in supported.tolist()}
-        on = [tuple(edge) in pairs for edge in mesh.edges.tolist()]
-        held = np.zeros((mesh.skeleton, 3), bool)
-        held[mesh.edge_nodes[on].ravel()] = True
-        return held
-
-    return hold
 
 
 def compute_element_matrices(

@@ -4,10 +4,10 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from crosscheck.comparison import SECOND_ORDER, Code, build_independent, compare
+from crosscheck.discretisation import plan_facets
 from crosscheck.errors import MechanismError
 from crosscheck.model import Model
 from crosscheck.stability import analyse_mesh
-from crosscheck.system import plan_facets
 
 KEPT = ("independent_subdivisions", "quantities", "not_settled")
 """Of a first comparison that a second one replaces."""

@@ -4,9 +4,10 @@ import numpy as np
 import pytest
 
 from crosscheck.buckling import compute_buckling_factors
+from crosscheck.discretisation import discretise
 from crosscheck.loads import compute_node_areas, distribute_loads
 from crosscheck.second_order import solve_second_order
-from crosscheck.system import Section, build_system, discretise, solve_loads
+from crosscheck.system import Section, build_system, solve_loads
 
 pytestmark = pytest.mark.verification
 

@@ -8,6 +8,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
+from crosscheck.discretisation import discretise
 from crosscheck.element import build_plane_elasticity
 from crosscheck.facet import condense_facets
 from crosscheck.stress import compute_strains
@@ -15,7 +16,6 @@ from crosscheck.system import (
     Section,
     assemble_skeleton,
     compute_element_matrices,
-    discretise,
     join_fields,
     turn_stiffness,
 )

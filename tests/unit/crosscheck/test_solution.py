@@ -5,6 +5,7 @@ import pytest
 from scipy.sparse.linalg import splu
 
 from crosscheck.analysis import analyse_model, list_values
+from crosscheck.discretisation import hold_edges
 from crosscheck.errors import CrosscheckError
 from crosscheck.facet import condense_facets
 from crosscheck.frontal import NotPositiveDefinite, Spans, factor_sum, plan_elimination
@@ -13,7 +14,6 @@ from crosscheck.model import read_model
 from crosscheck.system import (
     assemble_skeleton,
     compute_element_matrices,
-    hold_edges,
     join_fields,
     turn_stiffness,
 )
