@@ -63,63 +63,6 @@ rule page:
         "../scripts/page.py"
 
 
-CHARTS = ["supports", "surface", "curvature", "density_zigzag", "density_strip", "axes"]
-CHARTS += ["planarity_utilization"]
-SHEETS = ["all_thickness", "all_utilization"]
-FILES = ["shell/mesh.npz", "folded/folded.npz", "sizing/final.npz", "sizing/final.json"]
-
-
-def figure(name):
-    """Return a figure over all designs, flagged for the report."""
-    return report(
-        f"{RESULTS}/figures/{name}.png",
-        category="3 Figures",
-        caption="../docs/report/figure.rst",
-        labels={"figure": name.replace("_", " ")},
-    )
-
-
-def final_states(_wildcards):
-    """Return what figures over all designs read."""
-    return [f"{RESULTS}/{name}/{file}" for name in names_of_tag(SETTINGS.study) for file in FILES]
-
-
-rule study_figures:
-    message:
-        "charts over all designs"
-    input:
-        summary=rules.summary.output.csv,
-        designs=final_states,
-        library=library("study_figures"),
-    output:
-        **{name: [figure(name), f"{RESULTS}/figures/{name}.svg"] for name in CHARTS},
-    params:
-        results=RESULTS,
-        settings=stage_parameters(SETTINGS, "size"),
-    conda:
-        "../envs/foldshell.yaml"
-    script:
-        "../scripts/study_figures.py"
-
-
-rule all_designs:
-    message:
-        "all designs on one page"
-    input:
-        summary=rules.summary.output.csv,
-        designs=final_states,
-        library=library("all_designs"),
-    output:
-        **{name: figure(name) for name in SHEETS},
-    params:
-        results=RESULTS,
-        settings=stage_parameters(SETTINGS, "size"),
-    conda:
-        "../envs/foldshell.yaml"
-    script:
-        "../scripts/all_designs.py"
-
-
 rule verify:
     message:
         "do the results still agree with what made them?"

@@ -26,8 +26,7 @@ def run_in_forks(server):
         if job is None:
             return run_anew(self, fname, edit)
         start = time.time()
-        with job:
-            end = job.wait()
+        end = job.wait()
         if self.bench_record is not None:
             seconds = time.time() - start
             self.bench_record.running_time, self.bench_record.cpu_time = seconds, end.cpu_seconds

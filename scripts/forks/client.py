@@ -8,7 +8,6 @@ import threading
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from types import TracebackType
 
 from forks.server import ENDED, STARTED
 
@@ -29,7 +28,7 @@ class Ended:
 
 
 class Job:
-    """A script that runs in a fork; `pid` is that of its process, which lasts until `close`."""
+    """A script that runs in the fork `pid`."""
 
     def __init__(self, answer: socket.socket) -> None:
         self._answer = answer
@@ -40,26 +39,15 @@ class Job:
 
     def wait(self) -> Ended:
         """Wait for the end of the script. A process that was killed has exit code -1."""
-        try:
-            answer = self._answer.recv(ENDED.size)
-        except ConnectionError:
-            answer = b""
+        with self._answer:
+            try:
+                answer = self._answer.recv(ENDED.size)
+            except ConnectionError:
+                answer = b""
         if not answer:
             return Ended(-1, 0.0, 0.0)
         code, seconds, kilobytes = ENDED.unpack(answer)
         return Ended(code, seconds, kilobytes / 1024)
-
-    def close(self) -> None:
-        """Let the process go."""
-        self._answer.close()
-
-    def __enter__(self) -> "Job":
-        return self
-
-    def __exit__(
-        self, kind: type | None, error: BaseException | None, trace: TracebackType | None
-    ) -> None:
-        self.close()
 
 
 class ForkServer:
@@ -68,7 +56,7 @@ class ForkServer:
     Parameters
     ----------
     folder : from which the modules are imported, last on the path of every script
-    modules : names to import before the first fork
+    modules : names that the server imports whenever no script is asked for
     environment : of the server and all scripts; this process's own if None
     """
 

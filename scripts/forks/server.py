@@ -2,8 +2,7 @@
 
 It imports the modules once, from the folder, whenever the socket `descriptor` has no message. A
 message is the path of a script, with a socket of its own for the answer. The fork sends its process
-id, runs the script, and sends (exit code, processor seconds, largest resident memory in kB). It
-ends once the other side has closed that socket, so that its process can be looked at until then.
+id, runs the script, and sends (exit code, processor seconds, largest resident memory in kB).
 A closed `descriptor` ends the server, whoever closed it: nothing stays behind a killed client.
 """
 
@@ -61,7 +60,6 @@ def run_fork(script: str, answer: socket.socket) -> None:
         below = resource.getrusage(resource.RUSAGE_CHILDREN)
         seconds = used.ru_utime + used.ru_stime + below.ru_utime + below.ru_stime
         answer.send(ENDED.pack(code, seconds, max(used.ru_maxrss, below.ru_maxrss)))
-        answer.recv(1)
     finally:
         os._exit(0)
 

@@ -38,6 +38,14 @@ def make_study(folder: Path, designs: str = DESIGNS, settings: dict | None = Non
     return folder
 
 
+def change_setting(folder: Path, group: str, name: str, value) -> None:
+    """Set `group.name` in the config.yaml of a study."""
+    path = folder / "config/config.yaml"
+    config = yaml.safe_load(path.read_text())
+    config[group][name] = value
+    path.write_text(yaml.safe_dump(config, sort_keys=False))
+
+
 def copy_code(folder: Path) -> Path:
     """Copy the workflow, so that an edit of the project during a test does not disturb it."""
     for name in ("scripts", "rules", "envs", "profiles", "docs/report"):

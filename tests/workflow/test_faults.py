@@ -9,9 +9,9 @@ import signal
 import subprocess
 
 import pytest
-import yaml
 from study_runner import (
     TARGET,
+    change_setting,
     command,
     find_jobs,
     make_study,
@@ -113,10 +113,7 @@ def test_settings_changed_half_way_give_what_they_give_from_scratch(code, tmp_pa
     run_and_kill(code, folder, folder / "results/tiny-dome/sizing/02/thickness.xlsx", ONE_DESIGN)
     remove_locks(folder)
     for place in (folder, fresh):
-        path = place / "config/config.yaml"
-        config = yaml.safe_load(path.read_text())
-        config["sizing"]["step"] = 0.2
-        path.write_text(yaml.safe_dump(config, sort_keys=False))
+        change_setting(place, "sizing", "step", 0.2)
         done = run(code, place, ONE_DESIGN)
         assert done.returncode == 0, done.stderr[-3000:]
     assert results(folder) == results(fresh)

@@ -8,11 +8,11 @@ import shutil
 
 import openpyxl
 import pytest
-import yaml
 from study_runner import (
     DESIGNS,
     SETTINGS,
     TARGET,
+    change_setting,
     hashes,
     make_study,
     results,
@@ -149,10 +149,7 @@ def test_a_loop_that_now_ends_sooner_runs_no_analysis_too_many(code, copied, tmp
     """All former iterations are in the plan at the start; those past the new end must leave it."""
     fresh, jobs = make_study(tmp_path / "fresh"), {}
     for folder in (copied, fresh):
-        path = folder / "config/config.yaml"
-        config = yaml.safe_load(path.read_text())
-        config["sizing"]["iterations_max"] = 2
-        path.write_text(yaml.safe_dump(config, sort_keys=False))
+        change_setting(folder, "sizing", "iterations_max", 2)
         done = run(code, folder, TARGET)
         assert done.returncode == 0, done.stderr[-3000:]
         jobs[folder] = set(re.findall(r"tiny-\w+: (?:analysis|thickness) \d\d", done.stderr))

@@ -11,9 +11,7 @@ import numpy as np
 from foldshell.figures.fields import cell_area
 from foldshell.figures.state import DesignState, read_state
 from foldshell.study.errors import InputError
-
-FILES = ("shell/mesh.npz", "folded/folded.npz", "sizing/final.npz", "sizing/final.json")
-"""What figures over all designs read of each."""
+from foldshell.study.stages import FINAL_STATE
 
 NUMBERS = ("span_m", "height_m", "zigzag", "strip", "volume_per_area_m", "utilization_mean",
            "displacement_vertical_max_m")  # fmt: skip
@@ -108,7 +106,7 @@ def read_states(
 ) -> Iterator[tuple[StudyDesign, DesignState]]:
     """Yield each design of summary.csv with its final state, from its folder in `results`."""
     for design in read_summary(path):
-        files = [Path(results, design.name, file) for file in FILES]
+        files = [Path(results, design.name, file) for file in FINAL_STATE]
         yield design, read_state(design.name, *files, combinations)
 
 

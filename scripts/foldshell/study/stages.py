@@ -52,6 +52,9 @@ STAGES: dict[str, list[str]] = {
     "study": ["pattern", "fold", *_STRENGTH, "analysis", "sizing", "crosscheck"],
 }
 
+FINAL_STATE = ("shell/mesh.npz", "folded/folded.npz", "sizing/final.npz", "sizing/final.json")
+"""The files in a design's folder that hold its final state, as figures over all designs read it."""
+
 
 def stage_parameters(
     settings: Settings, stage: str, design: Design | None = None

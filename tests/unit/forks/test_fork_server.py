@@ -36,8 +36,7 @@ def run(server, folder, text, name="job.py"):
     """Run a script with this text; return how it ended."""
     script = folder.parent / name
     script.write_text(text)
-    with server.start(script) as job:
-        return job.wait()
+    return server.start(script).wait()
 
 
 def wait_until_loaded(server, folder):
@@ -108,19 +107,17 @@ def test_processor_time_counts_the_work_of_the_fork_and_its_children(server, fol
     assert run(server, folder, both).cpu_seconds >= 0.48
 
 
-def test_jobs_run_side_by_side_and_stay_until_they_are_closed(server, folder):
+def test_jobs_run_side_by_side_and_leave_no_process(server, folder):
     script = folder.parent / "wait.py"
     ready = folder.parent / "ready"
     script.write_text(
         f"import os, time\nwhile not os.path.exists({str(ready)!r}): time.sleep(0.01)"
     )
     first, second = server.start(script), server.start(script)
+    assert is_alive(first.pid) and is_alive(second.pid)
     ready.touch()
     assert [second.wait().code, first.wait().code] == [0, 0]
-    assert is_alive(first.pid) and is_alive(second.pid)
-    for job in (first, second):
-        job.close()
-        assert wait_until_gone(job.pid)
+    assert wait_until_gone(first.pid) and wait_until_gone(second.pid)
 
 
 def test_without_a_server_nothing_is_started(server, folder):

@@ -9,5 +9,6 @@ def test_what_a_person_has_set_stays():
     assert environment["OMP_NUM_THREADS"] == "2"
     assert environment["OPENBLAS_NUM_THREADS"] == "1"
     assert environment["MALLOC_TRIM_THRESHOLD_"] == "4000000000"
+    assert environment["NUMPY_MADVISE_HUGEPAGE"] == "0"
     assert environment["HOME"] == "/home/a"
     assert "PYTHONDONTWRITEBYTECODE" not in environment
