@@ -25,4 +25,6 @@ def test_report_holds_every_page_below_the_limit(code, tmp_path):
     assert "results/figures/supports.png" in results
     assert (code / "scripts/foldshell/report/report.css").read_text().strip() in text
     assert "results/report/claims.html" not in results
+    graph = re.search(r"var rulegraph_spec = (\{.*?\});\n", text, re.S)[1]
+    assert '"analyse"' in graph and '"resize"' in graph  # though only last analyses are looked at
     assert not re.search(r'<(?:script|link|img)[^>]+(?:src|href)="http', text)

@@ -69,9 +69,8 @@ def minimise_terms(
             damping, growth = damping * growth, growth * 2
         if step is not None and np.abs(step).max() <= step_tolerance:
             reason = reason or f"no vertex moved further than {step_tolerance:g} m"
-    slope = float(np.abs(gradient).max())
-    limit = f"stopped at the limit of {max_iterations} iterations"
-    return Minimum(vertices, cost, slope, iteration, bool(reason), reason or limit)
+    said = reason or f"stopped at the limit of {max_iterations} iterations"
+    return Minimum(vertices, cost, float(np.abs(gradient).max()), iteration, bool(reason), said)
 
 
 def half_squares(rows: Sequence[tuple[np.ndarray, np.ndarray]]) -> float:

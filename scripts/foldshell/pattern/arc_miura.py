@@ -84,6 +84,7 @@ def size_arc_miura(
     fold = 2 * math.atan(math.cos(sector_angle) * math.tan(rest_fold_angle(sector_angle)))
 
     def miss(half_change: float) -> float:
+        """Turning (rad) beyond the wanted one."""
         odd, even = (strip_slope(sector_angle + side * half_change, fold) for side in (1.0, -1.0))
         return (zigzags - 1) * (odd - even) - turning
 

@@ -134,6 +134,7 @@ def find_hinges(facets: np.ndarray, edges: np.ndarray) -> Hinges:
     order = np.argsort(key)
 
     def look_up(first: np.ndarray, second: np.ndarray) -> np.ndarray:
+        """Vertex opposite of each directed edge (k,), -1 for none."""
         wanted = first.astype(np.int64) * count + second
         place = np.minimum(np.searchsorted(key[order], wanted), len(key) - 1)
         return np.where(key[order][place] == wanted, opposite[order][place], -1)

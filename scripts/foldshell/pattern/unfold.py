@@ -182,6 +182,7 @@ def find_overlap(flat: np.ndarray, grid: Grid) -> bool:
     start, end = flat[ring, :2], flat[np.roll(ring, -1), :2]
 
     def side(p: np.ndarray, q: np.ndarray, r: np.ndarray) -> np.ndarray:
+        """Twice the area of the triangles p, q, r: positive counter-clockwise."""
         return (q[..., 0] - p[..., 0]) * (r[..., 1] - p[..., 1]) - (q[..., 1] - p[..., 1]) * (
             r[..., 0] - p[..., 0]
         )

@@ -46,9 +46,11 @@ def _draw_panel(one: Series, count: int, top: float, last: bool) -> str:
     high = 1.06 * max([*known, *shown]) or 1.0
 
     def x(number: float) -> float:
+        """Place of an iteration across the chart."""
         return LEFT + (right - LEFT) * (number / max(count - 1, 1))
 
     def y(value: float) -> float:
+        """Place of a value down the chart."""
         return base - (base - top - TOP) * value / high
 
     parts += _draw_grid(high, y, right)
