@@ -28,7 +28,7 @@ RUN = {"started": False}
 
 REPORTING = "--report" in sys.argv
 """No job will run: the last analysis of a loop stands for all, which makes a study of a thousand
-jobs one of some hundred, and its graph of rules is the same."""
+jobs one of some hundred. Its graph has all rules, but not the way back from analyse to resize."""
 
 
 def goes_on(path):
