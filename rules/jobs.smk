@@ -6,11 +6,17 @@ from snakemake.script import PythonScript
 
 from forks.client import AVAILABLE, ForkServer, NoForkServer
 
-FORKED = ["pattern", "fold", "mesh", "start", "analyse", "resize", "group", "size"]
-FORKED += ["neutral_model", "refine", "crosscheck", "draw", "page", "sensitivity", "flat_equal"]
-LOADED = ["snakemake.script", *FORKED, "xlsxwriter", "meshio", "ezdxf"]
-LOADED += ["foldshell.shell.ready", "cvxopt.amd", "crosscheck.verdict", "crosscheck.workbook"]
-LOADED += ["vtkmodules.vtkRenderingOpenGL2", "vtkmodules.util.numpy_support"]
+# In the order in which they are needed: scripts, and what they import only where they use it.
+LOADED = ["snakemake.script", "pattern", "fold", "mesh", "start", "analyse", "resize", "xlsxwriter"]
+LOADED += ["foldshell.shell.ready", "cvxopt.amd", "group", "size", "neutral_model", "refine"]
+LOADED += ["crosscheck", "crosscheck.verdict", "crosscheck.workbook", "draw", "meshio", "page"]
+LOADED += ["vtkmodules.vtkRenderingOpenGL2", "vtkmodules.util.numpy_support", "ezdxf"]
+LOADED += ["sensitivity", "flat_equal", "summary", "timings", "report_pages", "all_designs"]
+LOADED += ["study_figures", "matplotlib.backends.backend_agg", "matplotlib.backends.backend_svg"]
+# Rules whose process stays for the next job of a kind. Analyses of a design follow each other: the
+# next one finds the mesh's operators and the order of elimination there, and memory that needs not
+# be asked for again, which is a third of its time. Pictures find the renderer set up.
+KEPT = {"analyse": "shell", "group": "shell", "draw": "pictures"}
 
 
 def run_in_forks(server):
@@ -20,7 +26,9 @@ def run_in_forks(server):
     def execute_script(self, fname, edit=False):
         elsewhere = self.conda_env or self.container_img or self.env_modules or self.shadow_dir
         try:
-            job = None if edit or elsewhere else server.start(fname)
+            kind = KEPT.get(self.rulename, "")
+            topic = self.wildcards.get("design", "")
+            job = None if edit or elsewhere else server.start(fname, kind, topic)
         except NoForkServer:
             job = None
         if job is None:

@@ -69,8 +69,12 @@ def iterations(wildcards):
         try:
             step = checkpoints.analyse.get(design=wildcards.design, iteration=f"{number:02d}")
         except IncompleteCheckpointException as missing:
-            former = [] if RUN["started"] else found(wildcards.design, number)
-            return former or [missing.targetfile]
+            if not RUN["started"] and (former := found(wildcards.design, number)):
+                return former
+            # One that is there already is flagged, which has Snakemake look whether it is made anew
+            # and, if not, follow it. One that is not there will be made: no second look at all jobs.
+            target = missing.targetfile
+            return [target if Path(target).exists() else str(target)]
         files.append(step.output.json)
         if not goes_on(files[-1]):
             break

@@ -1,17 +1,21 @@
 """Ask a fork server to run scripts."""
 
+import contextlib
 import os
 import socket
 import subprocess
 import sys
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from forks.server import ENDED, STARTED
 
 AVAILABLE = sys.platform == "linux" and hasattr(socket, "recv_fds")
+
+KEPT_MB = 1200.0
+"""A fork that has grown larger than this ends with its script, whatever its kind."""
 
 
 class NoForkServer(OSError):
@@ -28,26 +32,34 @@ class Ended:
 
 
 class Job:
-    """A script that runs in the fork `pid`."""
+    """A script that runs in the fork `pid`; `end` is called with the fork and how it ended."""
 
-    def __init__(self, answer: socket.socket) -> None:
-        self._answer = answer
-        started = answer.recv(STARTED.size)
+    def __init__(self, fork: socket.socket, end: Callable[[socket.socket, Ended], None]) -> None:
+        self._fork, self._end = fork, end
+        started = fork.recv(STARTED.size)
         if not started:
             raise NoForkServer("the fork server has ended")
         (self.pid,) = STARTED.unpack(started)
 
     def wait(self) -> Ended:
         """Wait for the end of the script. A process that was killed has exit code -1."""
-        with self._answer:
-            try:
-                answer = self._answer.recv(ENDED.size)
-            except ConnectionError:
-                answer = b""
-        if not answer:
-            return Ended(-1, 0.0, 0.0)
-        code, seconds, kilobytes = ENDED.unpack(answer)
-        return Ended(code, seconds, kilobytes / 1024)
+        try:
+            answer = self._fork.recv(ENDED.size)
+        except ConnectionError:
+            answer = b""
+        code, seconds, kilobytes = ENDED.unpack(answer) if answer else (-1, 0.0, 0)
+        ended = Ended(code, seconds, kilobytes / 1024)
+        self._end(self._fork, ended)
+        return ended
+
+
+@dataclass(frozen=True)
+class _Kept:
+    """A fork that waits for another script of its kind, and what its last one was about."""
+
+    kind: str
+    topic: str
+    fork: socket.socket
 
 
 class ForkServer:
@@ -67,6 +79,7 @@ class ForkServer:
         environment: Mapping[str, str] | None = None,
     ) -> None:
         self._lock = threading.Lock()
+        self._kept: list[_Kept] = []
         self._requests, other = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         program = [sys.executable, str(Path(__file__).with_name("server.py"))]
         with other:
@@ -75,13 +88,22 @@ class ForkServer:
                 program + arguments, pass_fds=[other.fileno()], env=environment
             )
 
-    def start(self, script: str | Path) -> Job:
-        """Run a script in a fork. Raises `NoForkServer` if it cannot even be started."""
+    def start(self, script: str | Path, kind: str = "", topic: str = "") -> Job:
+        """Run a script in a fork. Raises `NoForkServer` if it cannot even be started.
+
+        The fork of a script with a `kind` stays when it has ended well, with all that it holds in
+        memory, and runs the next script of that kind: one on the same `topic` if there is a choice.
+        """
+        while kind and (fork := self._take(kind, topic)):
+            with contextlib.suppress(OSError):  # killed while it waited
+                fork.send(os.fsencode(script))
+                return self._job(fork, kind, topic)
+            fork.close()
         own, other = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         try:
             with other, self._lock:
                 socket.send_fds(self._requests, [os.fsencode(script)], [other.fileno()])
-            return Job(own)
+            return self._job(own, kind, topic)
         except OSError as error:
             own.close()
             raise NoForkServer(str(error)) from error
@@ -89,4 +111,27 @@ class ForkServer:
     def stop(self) -> None:
         """End the server once its scripts have been started; they go on."""
         self._requests.close()
+        with self._lock:
+            while self._kept:
+                self._kept.pop().fork.close()
         self.process.wait()
+
+    def _take(self, kind: str, topic: str) -> socket.socket | None:
+        """Return a fork that waits, the one on the topic first, else the one that waits longest."""
+        with self._lock:
+            fitting = [kept for kept in self._kept if kept.kind == kind]
+            fitting.sort(key=lambda kept: kept.topic != topic)
+            if not fitting:
+                return None
+            self._kept.remove(fitting[0])
+            return fitting[0].fork
+
+    def _job(self, fork: socket.socket, kind: str, topic: str) -> Job:
+        def end(fork: socket.socket, ended: Ended) -> None:
+            if not kind or ended.code or ended.rss_mb > KEPT_MB:
+                fork.close()
+                return
+            with self._lock:
+                self._kept.append(_Kept(kind, topic, fork))
+
+        return Job(fork, end)

@@ -2,7 +2,8 @@
 
 It imports the modules once, from the folder, whenever the socket `descriptor` has no message. A
 message is the path of a script, with a socket of its own for the answer. The fork sends its process
-id, runs the script, and sends (exit code, processor seconds, largest resident memory in kB).
+id, runs the script, and sends (exit code, processor seconds, largest resident memory in kB). Then
+it waits for another script on that socket, and ends when it is closed.
 A closed `descriptor` ends the server, whoever closed it: nothing stays behind a killed client.
 """
 
@@ -22,6 +23,7 @@ import traceback
 STARTED = struct.Struct("q")
 ENDED = struct.Struct("qdq")
 MESSAGE_MAX = 65536
+OWN_AND_CHILDREN = resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN
 
 
 def serve(requests: socket.socket, modules: list[str]) -> None:
@@ -43,25 +45,32 @@ def serve(requests: socket.socket, modules: list[str]) -> None:
         with socket.socket(fileno=descriptors[0]) as answer:
             if os.fork() == 0:
                 requests.close()
-                run_fork(os.fsdecode(message), answer)
+                run_fork(message, answer)
 
 
-def run_fork(script: str, answer: socket.socket) -> None:
-    """Run the script as `python script` would, answer, and end this process."""
+def run_fork(message: bytes, answer: socket.socket) -> None:
+    """Run the script as `python script` would, answer, go on with the next; end this process."""
     signal.signal(signal.SIGINT, signal.default_int_handler)
     signal.signal(signal.SIGCHLD, signal.SIG_DFL)
-    name_process(script)
     try:
-        answer.send(STARTED.pack(os.getpid()))
-        code = run_script(script)
-        sys.stdout.flush()
-        sys.stderr.flush()
-        used = resource.getrusage(resource.RUSAGE_SELF)
-        below = resource.getrusage(resource.RUSAGE_CHILDREN)
-        seconds = used.ru_utime + used.ru_stime + below.ru_utime + below.ru_stime
-        answer.send(ENDED.pack(code, seconds, max(used.ru_maxrss, below.ru_maxrss)))
+        while message:
+            script, before = os.fsdecode(message), count_seconds()
+            name_process(script)
+            answer.send(STARTED.pack(os.getpid()))
+            code = run_script(script)
+            sys.stdout.flush()
+            sys.stderr.flush()
+            largest = max(resource.getrusage(who).ru_maxrss for who in OWN_AND_CHILDREN)
+            answer.send(ENDED.pack(code, count_seconds() - before, largest))
+            message = answer.recv(MESSAGE_MAX)
     finally:
         os._exit(0)
+
+
+def count_seconds() -> float:
+    """Return the processor time of this process and its children so far."""
+    used = [resource.getrusage(who) for who in OWN_AND_CHILDREN]
+    return sum(one.ru_utime + one.ru_stime for one in used)
 
 
 def run_script(script: str) -> int:

@@ -5,8 +5,9 @@ import pytest
 
 import analyse
 import start
+from foldshell.sizing.case import open_case
 from foldshell.study.errors import InputError
-from foldshell.study.files import hash_file, read_arrays, read_json
+from foldshell.study.files import hash_file, read_arrays, read_json, write_arrays
 from sizing_case import PANELS, SPAN, STRIP, ZIGZAG, stage, write_small_mesh
 
 KEYS = """
@@ -85,3 +86,18 @@ def test_damaged_workbook_leaves_no_result(tmp_path, mesh):
     assert not (tmp_path / "00/analysis.json").exists()
     # The edit is kept aside although it cannot be read.
     assert len(list((tmp_path / "00").glob("edited-*.xlsx"))) == 1
+
+
+def test_a_process_that_goes_on_uses_a_new_mesh_of_the_same_name(tmp_path):
+    """The case of the last analysis is remembered by contents, with its settings."""
+    path = tmp_path / "mesh.npz"
+    write_small_mesh(path)
+    first, same = (open_case(path, stage("analyse")) for _ in range(2))
+    assert same is first
+    other = open_case(path, stage("analyse") | {"loads": stage("analyse")["loads"] | {"live": 2.0}})
+    assert other.plan.loads.live == 2.0 != first.plan.loads.live
+    arrays = read_arrays(path)
+    write_arrays(path, arrays | {"nodes": 2 * arrays["nodes"]})
+    larger = open_case(path, stage("analyse"))
+    areas = [case.model.operators.geometry.area for case in (first, larger)]
+    np.testing.assert_allclose(areas[1], 4 * areas[0], rtol=1e-12)  # rounding

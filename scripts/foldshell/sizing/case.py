@@ -12,7 +12,10 @@ from foldshell.sizing.criteria import StopRule
 from foldshell.sizing.iteration import AnalysisCase, LoadPlan
 from foldshell.sizing.step import NEED_CONSTRAINTS
 from foldshell.study.errors import InputError
-from foldshell.study.files import read_arrays
+from foldshell.study.files import hash_data, hash_file, read_arrays
+
+_LAST: dict[tuple[str, str], AnalysisCase] = {}
+"""The case that `open_case` built last, by the hashes of mesh and settings."""
 
 
 def make_stop_rule(sizing: Mapping[str, Any]) -> StopRule:
@@ -23,15 +26,23 @@ def make_stop_rule(sizing: Mapping[str, Any]) -> StopRule:
 def open_case(mesh_path: str | Path, settings: Mapping[str, Any]) -> AnalysisCase:
     """Read a mesh and build what depends on it and on the plain settings of the stage `analyse`.
 
+    The last case is remembered: a process that goes on with the same mesh and settings has it at
+    once, told by the contents of the file and not by its name.
+
     Raises
     ------
     InputError
         for supports that leave a mechanism.
     """
-    try:
-        return make_case(read_arrays(mesh_path), settings)
-    except ValueError as error:
-        raise InputError(f"{mesh_path}: {error}") from None
+    key = hash_file(mesh_path), hash_data(settings)
+    if key not in _LAST:
+        try:
+            case = make_case(read_arrays(mesh_path), settings)
+        except ValueError as error:
+            raise InputError(f"{mesh_path}: {error}") from None
+        _LAST.clear()
+        _LAST[key] = case
+    return _LAST[key]
 
 
 def make_case(arrays: Mapping[str, Any], settings: Mapping[str, Any]) -> AnalysisCase:

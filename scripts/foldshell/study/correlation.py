@@ -4,10 +4,14 @@ import numpy as np
 
 
 def rank_correlation(first: np.ndarray, second: np.ndarray) -> float:
-    """Return Spearman's rank correlation."""
-    from scipy.stats import rankdata
+    """Return Spearman's rank correlation; equal values share the mean of their ranks."""
+    return linear_correlation(_rank(first), _rank(second))
 
-    return linear_correlation(rankdata(first), rankdata(second))
+
+def _rank(values: np.ndarray) -> np.ndarray:
+    """Return the same as `scipy.stats.rankdata`, whose import takes longer than a chart."""
+    _, place, count = np.unique(values, return_inverse=True, return_counts=True)
+    return (np.cumsum(count) - (count - 1) / 2)[place]
 
 
 def linear_correlation(first: np.ndarray, second: np.ndarray) -> float:

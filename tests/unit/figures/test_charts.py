@@ -167,6 +167,15 @@ def test_rank_correlation_sees_order_alone():
     assert np.isnan(rank_correlation(values, np.ones(50)))
 
 
+def test_rank_correlation_is_that_of_scipy_with_equal_values_too():
+    """Integers of a small range are equal in long rows; ranks are halves of integers, so exact."""
+    from scipy.stats import spearmanr
+
+    first, second = np.random.default_rng(9).integers(0, 7, size=(2, 200))
+    expected = spearmanr(first, second).statistic
+    assert rank_correlation(first, second) == pytest.approx(expected, abs=1e-14)
+
+
 def test_correlation_within_designs_is_not_that_of_all():
     """Two designs, each falling, the second higher in both: pooled it rises, within it falls."""
     fall = np.stack([np.linspace(0, 0.1, 20), np.linspace(0.2, 0.1, 20)])

@@ -46,6 +46,17 @@ def wait_until_loaded(server, folder):
         assert time.monotonic() < start + WAIT
 
 
+def start_client(program):
+    """Run a program that uses a server, with pipes to it."""
+    return subprocess.Popen(
+        [sys.executable, "-c", program],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"PYTHONPATH": str(SCRIPTS)},
+    )
+
+
 def is_alive(pid):
     try:
         os.kill(pid, 0)
@@ -98,6 +109,92 @@ def test_forks_share_nothing(server, folder):
     assert [run(server, folder, change).code for _ in range(3)] == [0, 0, 0]
 
 
+def run_kept(server, folder, text, topic="", kind="shell", name="job.py"):
+    """Run a script of a kind that is kept; return its process and how it ended."""
+    script = folder.parent / name
+    script.write_text(text)
+    job = server.start(script, kind, topic)
+    return job.pid, job.wait()
+
+
+def test_a_kept_fork_runs_the_next_script_of_its_kind_with_what_it_holds(server, folder):
+    change = "import library\nlibrary.loaded.append(2)\nassert len(library.loaded) == {}"
+    first, end = run_kept(server, folder, change.format(2))
+    assert end.code == 0 and is_alive(first)
+    second, end = run_kept(server, folder, change.format(3), "another topic")
+    assert (second, end.code) == (first, 0)
+    assert run_kept(server, folder, change.format(2), kind="other")[1].code == 0
+    assert run(server, folder, change.format(2)).code == 0
+
+
+def start_two(server, folder):
+    """Return the processes of two scripts that run at once, on the topics a and b."""
+    script, ready = folder.parent / "wait.py", folder.parent / "ready"
+    script.write_text(f"import os\nwhile not os.path.exists({str(ready)!r}): pass")
+    jobs = [server.start(script, "shell", topic) for topic in ("a", "b")]
+    ready.touch()
+    assert [job.wait().code for job in jobs] == [0, 0]
+    return [job.pid for job in jobs]
+
+
+def test_a_script_goes_to_the_kept_fork_of_its_topic_else_to_the_one_that_waits_longest(
+    server, folder
+):
+    a, b = start_two(server, folder)
+    assert [run_kept(server, folder, "", topic)[0] for topic in "babaa"] == [b, a, b, a, a]
+    assert run_kept(server, folder, "", "c")[0] == b
+
+
+def test_a_fork_that_fails_is_not_kept(server, folder):
+    """What a failed script leaves in memory may be half done."""
+    pid, end = run_kept(server, folder, "1 / 0")
+    assert end.code == 1 and wait_until_gone(pid)
+
+
+def test_a_large_fork_is_not_kept(server, folder, monkeypatch):
+    monkeypatch.setattr("forks.client.KEPT_MB", 60.0)
+    small, _ = run_kept(server, folder, "")
+    assert is_alive(small)
+    large, end = run_kept(server, folder, "filled = b'1' * 100_000_000")
+    assert large == small and end.rss_mb > 100 and wait_until_gone(large)
+
+
+def test_a_kept_fork_that_was_killed_is_replaced(server, folder):
+    killed, _ = run_kept(server, folder, "")
+    os.kill(killed, signal.SIGKILL)
+    assert wait_until_gone(killed)
+    pid, end = run_kept(server, folder, "")
+    assert pid != killed and end.code == 0
+
+
+def test_kept_forks_end_with_the_server(folder):
+    server = ForkServer(folder, ["library"])
+    pids = start_two(server, folder)
+    server.stop()
+    assert all(map(wait_until_gone, pids))
+
+
+def test_kept_forks_end_with_a_killed_client(folder):
+    program = "import sys\nfrom forks.client import ForkServer\n"
+    program += f"server = ForkServer({str(folder)!r}, ['library'])\n"
+    program += f"job = server.start({str(folder / 'library.py')!r}, 'shell')\n"
+    program += "job.wait()\nprint(job.pid, flush=True)\nsys.stdin.read()\n"
+    with start_client(program) as client:
+        pid = int(client.stdout.readline())
+        assert is_alive(pid)
+        client.kill()
+    assert wait_until_gone(pid)
+
+
+def test_processor_time_of_a_kept_fork_is_that_of_each_script(server, folder):
+    spin = (
+        "import time\nstart = time.process_time()\nwhile time.process_time() < start + 0.25: pass"
+    )
+    _, first = run_kept(server, folder, spin)
+    _, second = run_kept(server, folder, "")
+    assert first.cpu_seconds >= 0.24 and second.cpu_seconds < 0.2
+
+
 def test_processor_time_counts_the_work_of_the_fork_and_its_children(server, folder):
     """Half a second in all, in steps of the kernel's clock, 10 ms at most."""
     spin = "import time\nwhile time.process_time() < {}: pass\n"
@@ -141,14 +238,7 @@ def test_a_killed_client_takes_the_server_with_it(folder):
     program = "import sys\nfrom forks.client import ForkServer\n"
     program += f"server = ForkServer({str(folder)!r}, ['library'])\n"
     program += "print(server.process.pid, flush=True)\nsys.stdin.read()\n"
-    client = subprocess.Popen(
-        [sys.executable, "-c", program],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-        env=os.environ | {"PYTHONPATH": str(SCRIPTS)},
-    )
-    with client:
+    with start_client(program) as client:
         pid = int(client.stdout.readline())
         assert is_alive(pid)
         client.kill()
