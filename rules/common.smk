@@ -9,6 +9,10 @@ from foldshell.study.stages import choose_subdivisions, settings_hash, stage_par
 
 BY_NAME = {design.name: design for design in DESIGNS}
 SECTOR_ANGLE_DEG = round(math.degrees(SETTINGS.pattern.sector_angle), 10)
+# Priorities. Before any analysis: a design that cannot be folded is seen at once, and of all first
+# analyses the largest is begun first, so that no long loop is left for the end. After the last one:
+# Snakemake looks at all jobs that are left after each analysis, so few of them should be.
+BEFORE_LOOP, AFTER_LOOP = 1, 2
 PICTURES = ["thickness", "classes", "utilization", "displacement", "planarity"]
 PICTURES += ["strain", "force_lines", "isolines", "buckling"]
 LOOP = f"{RESULTS}/{{design}}/sizing"

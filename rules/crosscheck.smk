@@ -12,6 +12,7 @@ rule neutral_model:
         model=f"{RESULTS}/{{design}}/crosscheck/model.json",
     params:
         settings=of_stage("crosscheck"),
+    priority: AFTER_LOOP
     benchmark:
         timing("neutral_model")
     conda:
@@ -35,6 +36,7 @@ rule refine:
         edge_beam=edge_beam,
         subdivisions=subdivisions,
         settings=of_stage("crosscheck"),
+    priority: AFTER_LOOP
     benchmark:
         timing("refine")
     conda:
@@ -56,6 +58,7 @@ rule crosscheck:
     params:
         subdivisions=SETTINGS.crosscheck.subdivisions,
         tolerance=stage_parameters(SETTINGS, "crosscheck")["crosscheck"]["tolerance"],
+    priority: AFTER_LOOP
     benchmark:
         timing("crosscheck")
     conda:

@@ -18,6 +18,7 @@ rule draw:
     params:
         **of_design("span_m", "pattern"),
         settings=lambda wildcards: of_stage("size")(wildcards) | of_stage("figures")(wildcards),
+    priority: AFTER_LOOP
     benchmark:
         timing("draw")
     conda:
@@ -55,6 +56,7 @@ rule page:
     params:
         design=lambda wildcards: BY_NAME[wildcards.design].to_row(),
         settings=of_stage("size"),
+    priority: AFTER_LOOP
     benchmark:
         timing("page")
     conda:

@@ -12,6 +12,7 @@ rule fold:
     params:
         **of_design("surface", "span_m", "height_m", "fold_mode"),
         settings=lambda wildcards: of_stage("fold")(wildcards)["fold"],
+    priority: BEFORE_LOOP
     benchmark:
         timing("fold")
     conda:

@@ -71,8 +71,8 @@ def iterations(wildcards):
         except IncompleteCheckpointException as missing:
             if not RUN["started"] and (former := found(wildcards.design, number)):
                 return former
-            # One that is there already is flagged, which has Snakemake look whether it is made anew
-            # and, if not, follow it. One that is not there will be made: no second look at all jobs.
+            # One that is there stays flagged: Snakemake looks whether it has to be made anew and,
+            # if not, follows it. One that is not there will be made: no second look at all jobs.
             target = missing.targetfile
             return [target if Path(target).exists() else str(target)]
         files.append(step.output.json)

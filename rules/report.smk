@@ -14,8 +14,9 @@ def report_files(wildcards):
     """Return what the report shows."""
     pages = [f"{RESULTS}/report/{name}.html" for name in ("summary", "verification", "settings")]
     pages += [f"{RESULTS}/timings.csv"] + [f"{RESULTS}/report/claims.html"] * has_claims()
-    figures = [f"{RESULTS}/figures/{name}.png" for name in CHARTS + SHEETS]
-    return pages + figures + [f"{RESULTS}/{name}/page.html" for name in names_of_tag(SETTINGS.study)]
+    figures = [f"{RESULTS}/figures/{name}.png" for name in CHARTS + PANEL_CHARTS + SHEETS]
+    designs = [f"{RESULTS}/{name}/page.html" for name in names_of_tag(SETTINGS.study)]
+    return pages + figures + designs
 
 
 rule report_pages:

@@ -11,6 +11,7 @@ rule mesh:
         **of_design("support"),
         edge_beam=edge_beam,
         subdivisions=subdivisions,
+    priority: BEFORE_LOOP
     benchmark:
         timing("mesh")
     conda:

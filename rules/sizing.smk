@@ -17,6 +17,7 @@ rule start:
             for name in ("start_thickness", "least_thickness", "largest_thickness")
         },
         settings_hash=settings_hash_of("start"),
+    priority: BEFORE_LOOP
     benchmark:
         timing("start")
     conda:
@@ -86,6 +87,7 @@ rule group:
         **of_design("span_m"),
         classes=SETTINGS.sizing.classes,
         settings=of_stage("analyse"),
+    priority: AFTER_LOOP
     benchmark:
         timing("group")
     conda:
@@ -111,6 +113,7 @@ rule size:
         design=lambda wildcards: BY_NAME[wildcards.design].to_row(),
         settings=of_stage("size"),
         settings_hash=settings_hash_of("size"),
+    priority: AFTER_LOOP
     benchmark:
         timing("size")
     conda:

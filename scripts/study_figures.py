@@ -1,4 +1,4 @@
-"""Rule study_figures: charts over all designs of the study."""
+"""Rules study_figures and panel_figures: charts over all designs of the study."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
@@ -10,7 +10,8 @@ from foldshell.figures.planarity_chart import draw_planarity_chart
 from foldshell.figures.study_data import COMPARISONS, add_fields, read_states
 from foldshell.study.errors import user_errors
 
-CHARTS = (*COMPARISONS, "axes", "planarity_utilization")
+OTHERS = {"axes": draw_axes_comparison, "planarity_utilization": draw_planarity_chart}
+CHARTS = (*COMPARISONS, *OTHERS)
 
 
 def main(
@@ -20,18 +21,20 @@ def main(
     *,
     settings: Mapping[str, Any],
 ) -> None:
-    """Write the charts (`CHARTS`; PNG or SVG by suffix).
+    """Write the named charts (of `CHARTS`; PNG or SVG by suffix).
 
     `results` has a folder a design; `settings` are the plain parameters of stage `size`.
     """
     limits = read_limits(settings)
     states = read_states(summary_path, results, settings["combinations"])
     designs = [add_fields(design, state) for design, state in states]
-    for name, comparison in COMPARISONS.items():
-        figure = draw_comparison(designs, comparison, limits.displacement_limit_span_over)
-        save_figure(figure, charts[name])
-    save_figure(draw_axes_comparison(designs), charts["axes"])
-    save_figure(draw_planarity_chart(designs), charts["planarity_utilization"])
+    for name, paths in charts.items():
+        if name in COMPARISONS:
+            limit = limits.displacement_limit_span_over
+            figure = draw_comparison(designs, COMPARISONS[name], limit)
+        else:
+            figure = OTHERS[name](designs)
+        save_figure(figure, paths)
 
 
 if "snakemake" in globals():
@@ -39,6 +42,6 @@ if "snakemake" in globals():
         main(
             snakemake.input.summary,  # noqa: F821
             results=snakemake.params.results,  # noqa: F821
-            charts={name: snakemake.output[name] for name in CHARTS},  # noqa: F821
+            charts=dict(snakemake.output.items()),  # noqa: F821
             settings=snakemake.params.settings,  # noqa: F821
         )

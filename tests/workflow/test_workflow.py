@@ -103,6 +103,14 @@ def test_a_hand_edit_redoes_what_follows_and_only_that(code, copied):
     assert ",edited," in history[2] and ",edited," not in history[1]
 
 
+def test_a_deleted_analysis_is_made_anew_and_those_after_it_are_followed(code, copied, finished):
+    """It comes out as before, so that workbooks and analyses that follow may stay."""
+    (copied / "results/tiny-dome/sizing/01/analysis.json").unlink()
+    done = run(code, copied, TARGET)
+    assert done.returncode == 0 and "tiny-dome: analysis 01" in done.stderr
+    assert results(copied) == results(finished)
+
+
 def test_iterations_left_over_from_before_an_edit_are_removed(code, copied):
     loop = copied / "results/tiny-dome/sizing"
     count = last_iteration(copied, "tiny-dome")["iteration"] + 1
