@@ -71,10 +71,9 @@ def iterations(wildcards):
         except IncompleteCheckpointException as missing:
             if not RUN["started"] and (former := found(wildcards.design, number)):
                 return former
-            # One that is there stays flagged: Snakemake looks whether it has to be made anew and,
-            # if not, follows it. One that is not there will be made: no second look at all jobs.
-            target = missing.targetfile
-            return [target if Path(target).exists() else str(target)]
+            # Plain text: the exception's own name of the file is flagged, and has Snakemake look at
+            # all jobs once more, to follow an analysis that need not be made. This one must be.
+            return [str(missing.targetfile)]
         files.append(step.output.json)
         if not goes_on(files[-1]):
             break
