@@ -14,8 +14,8 @@ LOADED += ["vtkmodules.vtkRenderingOpenGL2", "vtkmodules.util.numpy_support", "e
 LOADED += ["sensitivity", "flat_equal", "summary", "timings", "report_pages", "all_designs"]
 LOADED += ["study_figures", "matplotlib.backends.backend_agg", "matplotlib.backends.backend_svg"]
 # Rules whose process stays for the next job of a kind. Analyses of a design follow each other: the
-# next one finds the mesh's operators and the order of elimination there, and memory that needs not
-# be asked for again, which is a third of its time. Pictures find the renderer set up.
+# next one finds the mesh's operators, the order of elimination and memory there, a quarter of its
+# time. Pictures find the renderer set up.
 KEPT = {"analyse": "shell", "group": "shell", "draw": "pictures"}
 
 
