@@ -21,12 +21,15 @@ _NUMBERS = (
 
 @dataclass(frozen=True)
 class DesignProgress:
-    """Iterations done of a design, the last report (None before the first), seconds of all."""
+    """Iterations done of a design, the last report (None before the first), seconds of all, and
+    the bytes of its mesh (None before it is made), to which the time of an analysis is about
+    proportional."""
 
     design: str
     iterations: int
     last: Mapping[str, Any] | None
     seconds: float
+    size: int | None = None
 
     @property
     def done(self) -> bool:
@@ -48,36 +51,46 @@ def describe_iteration(design: str, report: Mapping[str, Any]) -> str:
 
 def read_progress(results: str | Path, designs: Iterable[str]) -> list[DesignProgress]:
     """Read the iterations of designs, up to the first missing, half-written or last one."""
-    return [_read_design(Path(results) / name / "sizing", name) for name in designs]
+    return [_read_design(Path(results) / name, name) for name in designs]
 
 
 def _read_design(folder: Path, name: str) -> DesignProgress:
     last, number, seconds = None, 0, 0.0
+    mesh = folder / "shell/mesh.npz"
+    size = mesh.stat().st_size if mesh.exists() else None
     while last is None or last["verdict"] == "continue":
         try:
-            report = read_json(folder / f"{number:02d}/analysis.json")
+            report = read_json(folder / f"sizing/{number:02d}/analysis.json")
             seconds += float(report["seconds"])
             last = {"iteration": number, "reason": "", **report, "verdict": report["verdict"]}
         except (OSError, ValueError, KeyError, TypeError):
             break
         number += 1
-    return DesignProgress(name, number, last, seconds)
+    return DesignProgress(name, number, last, seconds, size)
 
 
 def estimate_left(progress: Iterable[DesignProgress], cores: int) -> float | None:
     """Return the seconds that the analyses still to come take on `cores`, None before the first.
 
     Open designs are taken to need as many iterations as the median of those done, at least one
-    more; an iteration takes the mean time so far. Other jobs of the study are not counted.
+    more; an iteration takes the mean time so far for each byte of mesh, since the largest designs
+    come first. A design without a mesh counts as a mean one. Other jobs of the study are not
+    counted.
     """
     progress = list(progress)
-    count = sum(item.iterations for item in progress)
-    if not count:
+    known = [item.size for item in progress if item.size]
+    usual_size = statistics.mean(known) if known else 1
+    work = sum(item.iterations * (item.size or usual_size) for item in progress)
+    if not work:
         return None
-    each = sum(item.seconds for item in progress) / count
+    each = sum(item.seconds for item in progress) / work
     done = [item.iterations for item in progress if item.done]
     usual = statistics.median(done) if done else USUAL_ITERATIONS
-    left = sum(max(1, usual - item.iterations) for item in progress if not item.done)
+    left = sum(
+        max(1, usual - item.iterations) * (item.size or usual_size)
+        for item in progress
+        if not item.done
+    )
     return each * left / max(1, cores)
 
 

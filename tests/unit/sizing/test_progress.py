@@ -47,6 +47,17 @@ def test_estimate(tmp_path):
     assert "c: not begun" in text
 
 
+def test_the_estimate_knows_that_large_designs_come_first(tmp_path):
+    """a took 4 iterations of 2 s on a mesh of 3000 bytes; b will take 4 of a third of that, and c,
+    without a mesh yet, 4 of the mean of both meshes: 8 / 3 + 16 / 3 s on one core."""
+    write(tmp_path, "a", *(report(n) for n in range(3)), report(3, "converged"))
+    for name, size in (("a", 3000), ("b", 1000)):
+        (tmp_path / name / "shell").mkdir(parents=True)
+        (tmp_path / name / "shell/mesh.npz").write_bytes(bytes(size))
+    found = read_progress(tmp_path, ["a", "b", "c"])
+    assert estimate_left(found, 1) == pytest.approx(4 * 2 / 3 + 4 * 2 * 2 / 3)
+
+
 def test_iterations_left_over_behind_the_last_do_not_count(tmp_path):
     write(tmp_path, "a", report(0), report(1, "converged"), report(2), report(3))
     assert read_progress(tmp_path, ["a"])[0].iterations == 2
