@@ -56,10 +56,11 @@ onstart:
             workflow.scheduler.job_rate_limiter = None
         # After each analysis Snakemake asks anew of every job that it did not run itself whether it
         # must run: beside a finished study that takes longer than the analysis. What is up to date
-        # before the first job starts stays so.
+        # before the first job starts stays so. Progress counts it as done.
         if hasattr(workflow.dag, "_finished") and hasattr(workflow.scheduler, "finished_jobs"):
             current = {job for job in workflow.dag.jobs if not workflow.dag.needrun(job)}
             workflow.dag._finished.update(current)
             workflow.scheduler.finished_jobs += len(current)
+            workflow.dag._len = len(workflow.dag._finished | workflow.dag._needrun)
         if SETTINGS.jobs.fork and AVAILABLE:
             run_in_forks(ForkServer(SCRIPTS, LOADED, os.environ | ONE_THREAD))
