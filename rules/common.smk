@@ -9,12 +9,14 @@ from foldshell.study.stages import choose_subdivisions, settings_hash, stage_par
 
 BY_NAME = {design.name: design for design in DESIGNS}
 SECTOR_ANGLE_DEG = round(math.degrees(SETTINGS.pattern.sector_angle), 10)
-# Priorities. Before any analysis: a design that cannot be folded is seen at once, and of all first
-# analyses the largest is begun first, so that no long loop is left for the end. After the last one:
-# Snakemake looks at all jobs that are left after each analysis, so few of them should be.
+# Priorities. Before any analysis: a design that cannot be folded is seen at once, and Snakemake's
+# greedy scheduler, which takes large inputs first, finds all first analyses ready and leaves no long
+# loop for the end. After the last one: Snakemake looks at all jobs that are left after each
+# analysis, so few of them should be.
 BEFORE_LOOP, AFTER_LOOP = 1, 2
 PICTURES = ["thickness", "classes", "utilization", "displacement", "planarity"]
 PICTURES += ["strain", "force_lines", "isolines", "buckling"]
+THICKNESSES = ("start_thickness", "least_thickness", "largest_thickness")
 LOOP = f"{RESULTS}/{{design}}/sizing"
 STEP = f"{LOOP}/{{iteration}}"
 # Relative in the project's own folder, so that a moved project does not run anew.

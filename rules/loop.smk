@@ -56,8 +56,8 @@ def iterations(wildcards):
     """Return every analysis.json up to the first whose verdict ends the loop.
 
     A file that cannot be read ends the list; `size` says what is wrong with it. An analysis that
-    is still to be made is returned as what it is waited for. Leaving that to Snakemake, which
-    does the same with the exception, makes it look at all loops twice after each analysis.
+    is still to be made is returned as what it is waited for, in plain text: the exception, and
+    its own name of the file, have Snakemake look at all jobs once more after each analysis.
     Before jobs run, all that a former run has left is returned at once: Snakemake then looks at
     a finished study three times, where following it analysis by analysis took thirty looks. What
     of it has to be made anew is followed one by one as soon as the first of it is made.
@@ -71,8 +71,6 @@ def iterations(wildcards):
         except IncompleteCheckpointException as missing:
             if not RUN["started"] and (former := found(wildcards.design, number)):
                 return former
-            # Plain text: the exception's own name of the file is flagged, and has Snakemake look at
-            # all jobs once more, to follow an analysis that need not be made. This one must be.
             return [str(missing.targetfile)]
         files.append(step.output.json)
         if not goes_on(files[-1]):

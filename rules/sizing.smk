@@ -12,10 +12,7 @@ rule start:
         record=f"{LOOP}/00/written.json",
     params:
         **of_design("zigzag", "strip"),
-        **{
-            name: getattr(SETTINGS.sizing, name)
-            for name in ("start_thickness", "least_thickness", "largest_thickness")
-        },
+        **{name: getattr(SETTINGS.sizing, name) for name in THICKNESSES},
         settings_hash=settings_hash_of("start"),
     priority: BEFORE_LOOP
     benchmark:

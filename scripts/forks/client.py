@@ -127,7 +127,10 @@ class ForkServer:
             return fitting[0].fork
 
     def _job(self, fork: socket.socket, kind: str, topic: str) -> Job:
+        """Return the job that a fork has begun; its end keeps the fork or lets it go."""
+
         def end(fork: socket.socket, ended: Ended) -> None:
+            """Keep the fork, or let it go."""
             if not kind or ended.code or ended.rss_mb > KEPT_MB:
                 fork.close()
                 return

@@ -73,6 +73,15 @@ def test_a_second_start_has_nothing_to_do(code, copied):
     assert "Nothing to be done" in done.stdout + done.stderr
 
 
+def test_progress_beside_a_finished_study_counts_what_is_done(code, copied):
+    """No analysis is due, so that Snakemake does not count its jobs anew on the way."""
+    (copied / TARGET).unlink()
+    done = run(code, copied, TARGET)
+    assert done.returncode == 0
+    (steps,) = re.findall(r"(\d+) of (\d+) steps", done.stderr)
+    assert steps[0] == steps[1] and int(steps[1]) > 20
+
+
 def test_the_same_study_from_scratch_gives_the_same_bytes(code, finished, tmp_path):
     folder = make_study(tmp_path / "again")
     assert run(code, folder, TARGET).returncode == 0
@@ -103,8 +112,7 @@ def test_a_hand_edit_redoes_what_follows_and_only_that(code, copied):
     assert ",edited," in history[2] and ",edited," not in history[1]
 
 
-def test_a_deleted_analysis_is_made_anew_and_those_after_it_are_followed(code, copied, finished):
-    """It comes out as before, so that workbooks and analyses that follow may stay."""
+def test_a_deleted_analysis_is_made_anew_and_all_ends_as_before(code, copied, finished):
     (copied / "results/tiny-dome/sizing/01/analysis.json").unlink()
     done = run(code, copied, TARGET)
     assert done.returncode == 0 and "tiny-dome: analysis 01" in done.stderr

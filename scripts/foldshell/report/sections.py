@@ -192,6 +192,7 @@ def write_history(history: Sequence[Mapping[str, str]], utilization_max: float) 
     """Return the chart of volume, utilization and displacement over the iterations."""
 
     def column(name: str, factor: float = 1.0) -> list[float | None]:
+        """Numbers of a column, None where it is empty."""
         return [factor * float(row[name]) if row.get(name) else None for row in history]
 
     limits = [value for value in column("displacement_limit_m", 1e3) if value is not None]

@@ -253,6 +253,7 @@ class _Solution:
         dofs, operators = self._dofs, self._model.operators
 
         def correction(displacement: np.ndarray, _columns: np.ndarray) -> np.ndarray:
+            """Return -K^-1 K_g(N(u)) u of displacements u (free, k), m and rad."""
             full = np.zeros((len(linear), displacement.shape[1]))
             full[dofs] = displacement
             shape = full if initial is None else full + initial[:, None]

@@ -96,6 +96,7 @@ def make_geometric_products(
     translations = dofs[moving]
 
     def multiply(vectors: np.ndarray) -> np.ndarray:
+        """Return K_g of each case times vectors (size, k), (cases, size, k)."""
         # fields as rows: products and sums of long rows are several times as fast
         count = vectors.shape[1]
         full = np.zeros((count, 3 * nodes))

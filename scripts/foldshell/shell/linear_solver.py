@@ -44,6 +44,7 @@ class CholmodFactor:
         self.refactor(values)
 
     def refactor(self, values: np.ndarray) -> None:
+        """Factorise new values of the same pattern."""
         pattern = self._pattern
         try:
             self._factor = self._library.factorise(
@@ -53,6 +54,7 @@ class CholmodFactor:
             raise NotPositiveDefiniteError(error.args[0]) from None
 
     def solve(self, right_hand_sides: np.ndarray) -> np.ndarray:
+        """Return K^-1 B for B (size, k)."""
         return self._library.solve(self._factor, right_hand_sides)
 
 
@@ -72,6 +74,7 @@ class CvxoptFactor:
         self.refactor(values)
 
     def refactor(self, values: np.ndarray) -> None:
+        """Factorise new values of the same pattern."""
         self._lower.V = self._matrix(values)
         try:
             self._cholmod.numeric(self._lower, self._factor)
@@ -79,6 +82,7 @@ class CvxoptFactor:
             raise NotPositiveDefiniteError(int(error.args[0])) from None
 
     def solve(self, right_hand_sides: np.ndarray) -> np.ndarray:
+        """Return K^-1 B for B (size, k)."""
         block = self._matrix(np.asfortranarray(right_hand_sides, dtype=float))
         self._cholmod.solve(self._factor, block)
         return np.array(block).reshape(right_hand_sides.shape)
@@ -92,6 +96,7 @@ class SuperLuFactor:
         self.refactor(values)
 
     def refactor(self, values: np.ndarray) -> None:
+        """Factorise new values of the same pattern."""
         from scipy.sparse import csc_array, tril
         from scipy.sparse.linalg import splu
 
@@ -114,6 +119,7 @@ class SuperLuFactor:
             raise NotPositiveDefiniteError(int(self._lu.perm_c.argsort()[worst]))
 
     def solve(self, right_hand_sides: np.ndarray) -> np.ndarray:
+        """Return K^-1 B for B (size, k)."""
         return self._lu.solve(np.ascontiguousarray(right_hand_sides))
 
 

@@ -64,10 +64,12 @@ def minimise_volume(
     constant = constraints.value - MARGIN - rising @ thickness - falling @ (1 / thickness)
 
     def panels(multiplier: np.ndarray) -> np.ndarray:
+        """Return the thicknesses (P,) m that are best at given multipliers (k,)."""
         square = (multiplier @ falling) / (weight + multiplier @ rising)
         return np.clip(np.sqrt(square), lower, upper)
 
     def dual(multiplier: np.ndarray) -> tuple[float, np.ndarray]:
+        """Return minus the dual function and its gradient (k,)."""
         new = panels(multiplier)
         excess = constant + rising @ new + falling @ (1 / new)
         return -(weight @ new + multiplier @ excess), -excess

@@ -29,6 +29,7 @@ class _StrictLoader(yaml.SafeLoader):
     """Safe loader without aliases, so that a small file cannot grow large."""
 
     def compose_node(self, parent: Any, index: Any) -> Any:
+        """Compose a node of the document; an alias is refused."""
         if self.check_event(yaml.AliasEvent):
             event = self.peek_event()
             raise yaml.composer.ComposerError(

@@ -46,17 +46,6 @@ def wait_until_loaded(server, folder):
         assert time.monotonic() < start + WAIT
 
 
-def start_client(program):
-    """Run a program that uses a server, with pipes to it."""
-    return subprocess.Popen(
-        [sys.executable, "-c", program],
-        stdin=subprocess.PIPE,
-        stdout=subprocess.PIPE,
-        text=True,
-        env=os.environ | {"PYTHONPATH": str(SCRIPTS)},
-    )
-
-
 def is_alive(pid):
     try:
         os.kill(pid, 0)
@@ -127,11 +116,14 @@ def test_a_kept_fork_runs_the_next_script_of_its_kind_with_what_it_holds(server,
     assert run(server, folder, change.format(2)).code == 0
 
 
-def start_two(server, folder):
-    """Return the processes of two scripts that run at once, on the topics a and b."""
+def run_two(server, folder, kind):
+    """Run two scripts side by side, on the topics a and b; return their processes."""
     script, ready = folder.parent / "wait.py", folder.parent / "ready"
-    script.write_text(f"import os\nwhile not os.path.exists({str(ready)!r}): pass")
-    jobs = [server.start(script, "shell", topic) for topic in ("a", "b")]
+    script.write_text(
+        f"import os, time\nwhile not os.path.exists({str(ready)!r}): time.sleep(0.01)"
+    )
+    jobs = [server.start(script, kind, topic) for topic in ("a", "b")]
+    assert all(is_alive(job.pid) for job in jobs)
     ready.touch()
     assert [job.wait().code for job in jobs] == [0, 0]
     return [job.pid for job in jobs]
@@ -140,7 +132,7 @@ def start_two(server, folder):
 def test_a_script_goes_to_the_kept_fork_of_its_topic_else_to_the_one_that_waits_longest(
     server, folder
 ):
-    a, b = start_two(server, folder)
+    a, b = run_two(server, folder, "shell")
     assert [run_kept(server, folder, "", topic)[0] for topic in "babaa"] == [b, a, b, a, a]
     assert run_kept(server, folder, "", "c")[0] == b
 
@@ -169,21 +161,10 @@ def test_a_kept_fork_that_was_killed_is_replaced(server, folder):
 
 def test_kept_forks_end_with_the_server(folder):
     server = ForkServer(folder, ["library"])
-    pids = start_two(server, folder)
+    pids = run_two(server, folder, "shell")
+    assert all(map(is_alive, pids))
     server.stop()
     assert all(map(wait_until_gone, pids))
-
-
-def test_kept_forks_end_with_a_killed_client(folder):
-    program = "import sys\nfrom forks.client import ForkServer\n"
-    program += f"server = ForkServer({str(folder)!r}, ['library'])\n"
-    program += f"job = server.start({str(folder / 'library.py')!r}, 'shell')\n"
-    program += "job.wait()\nprint(job.pid, flush=True)\nsys.stdin.read()\n"
-    with start_client(program) as client:
-        pid = int(client.stdout.readline())
-        assert is_alive(pid)
-        client.kill()
-    assert wait_until_gone(pid)
 
 
 def test_processor_time_of_a_kept_fork_is_that_of_each_script(server, folder):
@@ -205,16 +186,7 @@ def test_processor_time_counts_the_work_of_the_fork_and_its_children(server, fol
 
 
 def test_jobs_run_side_by_side_and_leave_no_process(server, folder):
-    script = folder.parent / "wait.py"
-    ready = folder.parent / "ready"
-    script.write_text(
-        f"import os, time\nwhile not os.path.exists({str(ready)!r}): time.sleep(0.01)"
-    )
-    first, second = server.start(script), server.start(script)
-    assert is_alive(first.pid) and is_alive(second.pid)
-    ready.touch()
-    assert [second.wait().code, first.wait().code] == [0, 0]
-    assert wait_until_gone(first.pid) and wait_until_gone(second.pid)
+    assert all(map(wait_until_gone, run_two(server, folder, kind="")))
 
 
 def test_without_a_server_nothing_is_started(server, folder):
@@ -233,12 +205,27 @@ def test_an_error_in_a_library_is_left_to_the_scripts_that_use_it(folder):
     server.stop()
 
 
-def test_a_killed_client_takes_the_server_with_it(folder):
-    """Only the server: a job that has begun goes on, as one started by a shell does."""
+@pytest.mark.parametrize(
+    "number",
+    [
+        pytest.param("server.process.pid", id="server"),
+        pytest.param("kept.pid", id="kept fork"),
+    ],
+)
+def test_a_killed_client_takes_its_processes_with_it(folder, number):
+    """The server and what waits: a job that has begun goes on, as one started by a shell does."""
     program = "import sys\nfrom forks.client import ForkServer\n"
     program += f"server = ForkServer({str(folder)!r}, ['library'])\n"
-    program += "print(server.process.pid, flush=True)\nsys.stdin.read()\n"
-    with start_client(program) as client:
+    program += f"kept = server.start({str(folder / 'library.py')!r}, 'shell')\n"
+    program += f"kept.wait()\nprint({number}, flush=True)\nsys.stdin.read()\n"
+    client = subprocess.Popen(
+        [sys.executable, "-c", program],
+        stdin=subprocess.PIPE,
+        stdout=subprocess.PIPE,
+        text=True,
+        env=os.environ | {"PYTHONPATH": str(SCRIPTS)},
+    )
+    with client:
         pid = int(client.stdout.readline())
         assert is_alive(pid)
         client.kill()

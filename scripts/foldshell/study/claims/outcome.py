@@ -162,6 +162,7 @@ def choose(outcomes: Iterable[Outcome], **columns: Any) -> list[Outcome]:
     """Return the outcomes whose columns have these values; a tuple allows several."""
 
     def fits(outcome: Outcome) -> bool:
+        """Tell whether an outcome has all of the values."""
         return all(
             outcome.row[name] in (value if isinstance(value, tuple) else (value,))
             for name, value in columns.items()

@@ -73,6 +73,7 @@ def read_errors(folder: Path, chosen: Mapping[str, Any]) -> Errors:
     strength, deflection = chosen["strength"], chosen["deflection"]
 
     def pick(combination: str, quantity: str) -> tuple[float | None, float | None]:
+        """Return relative mesh error and cross-check difference of one quantity."""
         names = f"{combination} Th.II {quantity}", f"{combination} {quantity}"
         found = next((comparison[name] for name in names if name in comparison), {})
         own = (study.get("errors") or {}).get(combination, {})
