@@ -14,11 +14,11 @@ from snakemake.utils import min_version
 min_version("9.0")
 sys.path.insert(0, str(Path(workflow.basedir) / "scripts"))
 
-from foldshell.study.config_file import read_config
-from foldshell.study.environment import ONE_THREAD, prepare_environment
-from foldshell.study.errors import user_errors
-from foldshell.study.load import load_study
-from foldshell.workbook.edits import keep_all_edited
+from foldshell.settings.config_file import read_config
+from foldshell.engine.environment import ONE_THREAD, prepare_environment
+from foldshell.files.errors import user_errors
+from foldshell.settings.load import load_study
+from foldshell.files.edits import keep_all_edited
 
 prepare_environment(os.environ)
 

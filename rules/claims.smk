@@ -1,6 +1,6 @@
 # The claims of the paper: judged by the study, the baselines and runs with other settings.
 
-from foldshell.study.sensitivity import VARIANTS
+from foldshell.claims.sensitivity import VARIANTS
 
 
 def layout_of(name):
@@ -29,7 +29,7 @@ JUDGED = {
     "runs": STUDIED,
     "flats": [d for d in STUDIED if d.pattern == "miura" and flat_of(d)],
 }
-SIZED = ["folded/folded.npz", "folded/quality.json", "shell/mesh.npz", "mesh_study.json"]
+SIZED = ["folded/folded.npz", "folded/quality.json", "shell/mesh.npz", "mesh_convergence.json"]
 SIZED += ["sizing/00/analysis.json", "sizing/00/analysis.npz", "sizing/final.json"]
 SIZED += ["sizing/final.npz", "crosscheck/comparison.json"]
 
@@ -39,7 +39,7 @@ rule sensitivity:
         "{wildcards.design}: sized with {wildcards.variant}"
     input:
         mesh=rules.mesh.output.mesh,
-        library=library("sensitivity"),
+        library=code_inputs("sensitivity"),
     output:
         json=f"{RESULTS}/sensitivity/{{variant}}/{{design}}.json",
     wildcard_constraints:
@@ -62,7 +62,7 @@ rule flat_equal:
     input:
         flat=lambda wildcards: f"{RESULTS}/{flat_of(BY_NAME[wildcards.design])}/folded/folded.npz",
         final=rules.size.output.final,
-        library=library("flat_equal"),
+        library=code_inputs("flat_equal"),
     output:
         json=f"{RESULTS}/{{design}}/flat_equal.json",
     params:
@@ -92,7 +92,7 @@ rule claims:
             for design in JUDGED["runs"]
         ],
         kinematics=rules.kinematics.output.table,
-        library=library("claims"),
+        library=code_inputs("claims"),
     output:
         json=f"{RESULTS}/claims.json",
         page=f"{RESULTS}/claims.md",

@@ -3,9 +3,9 @@
 import functools
 import math
 
-from foldshell.study.designs import SURFACES, select_designs
-from foldshell.study.imports import write_library_list
-from foldshell.study.stages import choose_subdivisions, settings_hash, stage_parameters
+from foldshell.settings.designs import SURFACES, select_designs
+from foldshell.engine.imports import write_library_list
+from foldshell.settings.stages import choose_subdivisions, settings_hash, stage_parameters
 
 BY_NAME = {design.name: design for design in DESIGNS}
 SECTOR_ANGLE_DEG = round(math.degrees(SETTINGS.pattern.sector_angle), 10)
@@ -15,7 +15,7 @@ SECTOR_ANGLE_DEG = round(math.degrees(SETTINGS.pattern.sector_angle), 10)
 # analysis, so few of them should be.
 BEFORE_LOOP, AFTER_LOOP = 1, 2
 PICTURES = ["thickness", "classes", "utilization", "displacement", "planarity"]
-PICTURES += ["strain", "force_lines", "isolines", "buckling"]
+PICTURES += ["strain", "principal_stress_lines", "isolines", "buckling"]
 THICKNESSES = ("start_thickness", "least_thickness", "largest_thickness")
 LOOP = f"{RESULTS}/{{design}}/sizing"
 STEP = f"{LOOP}/{{iteration}}"
@@ -23,7 +23,7 @@ STEP = f"{LOOP}/{{iteration}}"
 SCRIPTS = "scripts" if Path.cwd() == Path(workflow.basedir) else f"{workflow.basedir}/scripts"
 
 
-def library(script):
+def code_inputs(script):
     """Return the list of the library files that a rule's script imports, as an input of it."""
     return write_library_list(f"{SCRIPTS}/{script}.py", SCRIPTS, ".snakemake/library")
 
@@ -84,11 +84,11 @@ def study_files(tag):
     """Return what is made of every design with a tag."""
     files = ["design.xlsx", "design.vtu", "crosscheck/comparison.json", "page.html"]
     files += [f"figures/{name}.png" for name in PICTURES]
-    true_pattern = [f"pattern/true_pattern.{kind}" for kind in ("fold", "dxf", "svg")]
+    developable_pattern = [f"pattern/developable_pattern.{kind}" for kind in ("fold", "dxf", "svg")]
     return [
         f"{RESULTS}/{name}/{file}"
         for name in names_of_tag(tag)
-        for file in files + true_pattern * (BY_NAME[name].fold_mode in ("exact", "rigid"))
+        for file in files + developable_pattern * (BY_NAME[name].fold_mode in ("exact", "rigid"))
     ]
 
 

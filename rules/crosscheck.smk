@@ -7,7 +7,7 @@ rule neutral_model:
     input:
         mesh=rules.mesh.output.mesh,
         final=rules.size.output.arrays,
-        library=library("neutral_model"),
+        library=code_inputs("neutral_model"),
     output:
         model=f"{RESULTS}/{{design}}/crosscheck/model.json",
     params:
@@ -21,15 +21,15 @@ rule neutral_model:
         "../scripts/neutral_model.py"
 
 
-rule refine:
+rule mesh_convergence:
     message:
         "{wildcards.design}: mesh error"
     input:
         folded=rules.fold.output.folded,
         final=rules.size.output.arrays,
-        library=library("refine"),
+        library=code_inputs("mesh_convergence"),
     output:
-        study=f"{RESULTS}/{{design}}/mesh_study.json",
+        study=f"{RESULTS}/{{design}}/mesh_convergence.json",
         primary=f"{RESULTS}/{{design}}/crosscheck/primary.json",
     params:
         **of_design("support"),
@@ -38,20 +38,20 @@ rule refine:
         settings=of_stage("crosscheck"),
     priority: AFTER_LOOP
     benchmark:
-        timing("refine")
+        timing("mesh_convergence")
     conda:
         "../envs/foldshell.yaml"
     script:
-        "../scripts/refine.py"
+        "../scripts/mesh_convergence.py"
 
 
-rule crosscheck:
+rule compare:
     message:
         "{wildcards.design}: cross-check by the independent code"
     input:
         model=rules.neutral_model.output.model,
-        primary=rules.refine.output.primary,
-        library=library("crosscheck"),
+        primary=rules.mesh_convergence.output.primary,
+        library=code_inputs("compare"),
     output:
         comparison=f"{RESULTS}/{{design}}/crosscheck/comparison.json",
         workbook=f"{RESULTS}/{{design}}/crosscheck/comparison.xlsx",
@@ -60,11 +60,11 @@ rule crosscheck:
         tolerance=stage_parameters(SETTINGS, "crosscheck")["crosscheck"]["tolerance"],
     priority: AFTER_LOOP
     benchmark:
-        timing("crosscheck")
+        timing("compare")
     conda:
         "../envs/foldshell.yaml"
     script:
-        "../scripts/crosscheck.py"
+        "../scripts/compare.py"
 
 
 THIRD = [f"{RESULTS}/{d.name}/crosscheck" for d in DESIGNS if "supports" in d.tags]
@@ -76,7 +76,7 @@ rule crosscheck_opensees:
     input:
         models=[f"{folder}/model.json" for folder in THIRD],
         primaries=[f"{folder}/primary.json" for folder in THIRD],
-        library=library("crosscheck_opensees"),
+        library=code_inputs("crosscheck_opensees"),
     output:
         table=f"{RESULTS}/crosscheck_opensees.csv",
     conda:

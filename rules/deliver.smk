@@ -10,7 +10,7 @@ rule draw:
         final=rules.size.output.arrays,
         report=rules.size.output.final,
         classes=rules.group.output.arrays,
-        library=library("draw"),
+        library=code_inputs("draw"),
     output:
         **{name: f"{RESULTS}/{{design}}/figures/{name}.png" for name in PICTURES},
         vtu=f"{RESULTS}/{{design}}/design.vtu",
@@ -39,10 +39,10 @@ rule page:
         history=rules.size.output.csv,
         classes=rules.group.output.json,
         class_arrays=rules.group.output.arrays,
-        mesh_study=rules.refine.output.study,
-        comparison=rules.crosscheck.output.comparison,
+        mesh_convergence=rules.mesh_convergence.output.study,
+        comparison=rules.compare.output.comparison,
         pictures=[rules.draw.output[name] for name in PICTURES],
-        library=library("page"),
+        library=code_inputs("page"),
         assets=assets(
             "page.css", "stage.html", "data.js", "renderer.js", "camera.js", "viewer.js"
         ),

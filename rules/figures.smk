@@ -1,6 +1,6 @@
 # Figures over all designs.
 
-from foldshell.study.stages import FINAL_STATE
+from foldshell.settings.stages import FINAL_STATE
 
 # Two halves, for two cores: nothing but the report comes after them.
 CHARTS = ["supports", "surface", "curvature", "axes"]
@@ -35,7 +35,7 @@ rule study_figures:
     input:
         summary=rules.summary.output.csv,
         designs=final_states,
-        library=library("study_figures"),
+        library=code_inputs("study_figures"),
     output:
         **charts(CHARTS),
     params:
@@ -60,7 +60,7 @@ rule all_designs:
     input:
         summary=rules.summary.output.csv,
         designs=final_states,
-        library=library("all_designs"),
+        library=code_inputs("all_designs"),
     output:
         **{name: figure(name) for name in SHEETS},
     params:

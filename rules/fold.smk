@@ -4,7 +4,7 @@ rule fold:
     input:
         fold=rules.pattern.output.fold,
         surface=surface_file,
-        library=library("fold"),
+        library=code_inputs("fold"),
     output:
         folded=f"{RESULTS}/{{design}}/folded/folded.npz",
         vtu=f"{RESULTS}/{{design}}/folded/folded.vtu",
@@ -27,11 +27,11 @@ rule unfold:
     input:
         pattern=rules.pattern.output.fold,
         folded=rules.fold.output.folded,
-        library=library("unfold"),
+        library=code_inputs("unfold"),
     output:
-        fold=f"{RESULTS}/{{design}}/pattern/true_pattern.fold",
-        dxf=f"{RESULTS}/{{design}}/pattern/true_pattern.dxf",
-        svg=f"{RESULTS}/{{design}}/pattern/true_pattern.svg",
+        fold=f"{RESULTS}/{{design}}/pattern/developable_pattern.fold",
+        dxf=f"{RESULTS}/{{design}}/pattern/developable_pattern.dxf",
+        svg=f"{RESULTS}/{{design}}/pattern/developable_pattern.svg",
     conda:
         "../envs/foldshell.yaml"
     script:
@@ -43,12 +43,12 @@ rule animate:
         "{wildcards.design}: animation of the {wildcards.pattern} pattern"
     input:
         fold=f"{RESULTS}/{{design}}/pattern/{{pattern}}_pattern.fold",
-        library=library("animate"),
+        library=code_inputs("animate"),
     output:
         gif=f"{RESULTS}/{{design}}/animation/{{pattern}}.gif",
         stills=directory(f"{RESULTS}/{{design}}/animation/{{pattern}}"),
     wildcard_constraints:
-        pattern="crease|true",
+        pattern="crease|developable",
     conda:
         "../envs/foldshell.yaml"
     script:
@@ -59,7 +59,7 @@ rule kinematics:
     message:
         "kinematics of the Miura sheet"
     input:
-        library=library("kinematics"),
+        library=code_inputs("kinematics"),
     output:
         table=f"{RESULTS}/kinematics.json",
         figure=f"{RESULTS}/kinematics.png",

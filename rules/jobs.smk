@@ -4,12 +4,12 @@ from subprocess import CalledProcessError
 
 from snakemake.script import PythonScript
 
-from forks.client import AVAILABLE, ForkServer, NoForkServer
+from foldshell.engine.fork_client import AVAILABLE, ForkServer, NoForkServer
 
 # In the order in which they are needed: scripts, and what they import only where they use it.
 LOADED = ["snakemake.script", "pattern", "fold", "mesh", "start", "analyse", "resize", "xlsxwriter"]
-LOADED += ["foldshell.shell.ready", "cvxopt.amd", "group", "size", "neutral_model", "refine"]
-LOADED += ["crosscheck", "crosscheck.verdict", "crosscheck.workbook", "draw", "meshio", "page"]
+LOADED += ["foldshell.shell.ready", "cvxopt.amd", "group", "size", "neutral_model", "mesh_convergence"]
+LOADED += ["compare", "crosscheck.verdict", "crosscheck.workbook", "draw", "meshio", "page"]
 LOADED += ["vtkmodules.vtkRenderingOpenGL2", "vtkmodules.util.numpy_support", "ezdxf"]
 LOADED += ["sensitivity", "flat_equal", "summary", "timings", "report_pages", "all_designs"]
 LOADED += ["study_figures", "matplotlib.backends.backend_agg", "matplotlib.backends.backend_svg"]

@@ -5,7 +5,7 @@ import json
 from snakemake.exceptions import IncompleteCheckpointException
 
 
-def before(names):
+def previous_iteration(names):
     """Return a function of the wildcards: files of the iteration before, none for the first."""
 
     def find(wildcards):
@@ -31,7 +31,7 @@ REPORTING = "--report" in sys.argv
 jobs one of some hundred. Its graph has all rules, but not the way back from analyse to resize."""
 
 
-def goes_on(path):
+def asks_for_another(path):
     """Tell whether an analysis asks for another one. A file that cannot be read does not."""
     try:
         return json.loads(Path(path).read_text())["verdict"] == "continue"
@@ -39,7 +39,7 @@ def goes_on(path):
         return False
 
 
-def found(design, first):
+def existing_analyses(design, first):
     """Return the analysis.json that exist from iteration `first` on, up to the end of the loop."""
     files = []
     for number in range(first, 100):
@@ -47,7 +47,7 @@ def found(design, first):
         if not Path(path).exists():
             break
         files.append(path)
-        if not goes_on(path):
+        if not asks_for_another(path):
             break
     return files
 
@@ -63,16 +63,16 @@ def iterations(wildcards):
     of it has to be made anew is followed one by one as soon as the first of it is made.
     """
     if REPORTING:
-        return found(wildcards.design, 0)[-1:]
+        return existing_analyses(wildcards.design, 0)[-1:]
     files = []
     for number in range(100):
         try:
             step = checkpoints.analyse.get(design=wildcards.design, iteration=f"{number:02d}")
         except IncompleteCheckpointException as missing:
-            if not RUN["started"] and (former := found(wildcards.design, number)):
+            if not RUN["started"] and (former := existing_analyses(wildcards.design, number)):
                 return former
             return [str(missing.targetfile)]
         files.append(step.output.json)
-        if not goes_on(files[-1]):
+        if not asks_for_another(files[-1]):
             break
     return files

@@ -3,7 +3,7 @@ rule pattern:
         "{wildcards.design}: crease pattern"
     input:
         surface=surface_file,
-        library=library("pattern"),
+        library=code_inputs("pattern"),
     output:
         fold=f"{RESULTS}/{{design}}/pattern/crease_pattern.fold",
         dxf=f"{RESULTS}/{{design}}/pattern/crease_pattern.dxf",

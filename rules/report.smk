@@ -25,7 +25,7 @@ rule report_pages:
     input:
         summary=rules.summary.output.csv,
         verification=[f"{SCRIPTS}/../tests/verification/README.md"],
-        library=library("report_pages"),
+        library=code_inputs("report_pages"),
         assets=assets("page.css", "summary.js"),
     output:
         summary=report(
@@ -59,7 +59,7 @@ rule claims_page:
         "claims as a page"
     input:
         claims=f"{RESULTS}/claims.md",
-        library=library("claims_page"),
+        library=code_inputs("claims_page"),
         assets=assets("page.css"),
     output:
         page=report(
@@ -84,7 +84,7 @@ rule report:
         "report"
     input:
         report_files,
-        library=library("report"),
+        library=code_inputs("report"),
         stylesheet=assets("report.css")[0],
     output:
         report=f"{RESULTS}/report.html",

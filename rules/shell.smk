@@ -3,7 +3,7 @@ rule mesh:
         "{wildcards.design}: shell mesh and supports"
     input:
         folded=rules.fold.output.folded,
-        library=library("mesh"),
+        library=code_inputs("mesh"),
     output:
         mesh=f"{RESULTS}/{{design}}/shell/mesh.npz",
         vtu=f"{RESULTS}/{{design}}/shell/mesh.vtu",

@@ -6,7 +6,7 @@ rule start:
     message:
         "{wildcards.design}: start thickness"
     input:
-        library=library("start"),
+        library=code_inputs("start"),
     output:
         workbook=f"{LOOP}/00/thickness.xlsx",
         record=f"{LOOP}/00/written.json",
@@ -29,8 +29,8 @@ checkpoint analyse:
     input:
         mesh=rules.mesh.output.mesh,
         workbook=f"{STEP}/thickness.xlsx",
-        previous=before(["analysis.json", "analysis.npz"]),
-        library=library("analyse"),
+        previous=previous_iteration(["analysis.json", "analysis.npz"]),
+        library=code_inputs("analyse"),
     output:
         json=f"{STEP}/analysis.json",
         arrays=f"{STEP}/analysis.npz",
@@ -51,9 +51,9 @@ rule resize:
     message:
         "{wildcards.design}: thickness {wildcards.iteration}"
     input:
-        analysis=before(["analysis.json", "analysis.npz"]),
+        analysis=previous_iteration(["analysis.json", "analysis.npz"]),
         memory=memory_before_last,
-        library=library("resize"),
+        library=code_inputs("resize"),
     output:
         workbook=f"{STEP}/thickness.xlsx",
         memory=f"{STEP}/memory.npz",
@@ -76,7 +76,7 @@ rule group:
     input:
         mesh=rules.mesh.output.mesh,
         analyses=iterations,
-        library=library("group"),
+        library=code_inputs("group"),
     output:
         json=f"{LOOP}/classes.json",
         arrays=f"{LOOP}/classes.npz",
@@ -99,7 +99,7 @@ rule size:
     input:
         analyses=iterations,
         classes=[rules.group.output.json, rules.group.output.arrays],
-        library=library("size"),
+        library=code_inputs("size"),
     output:
         csv=f"{LOOP}/history.csv",
         history=f"{LOOP}/history.xlsx",

@@ -3,7 +3,7 @@
 
 def summary_inputs(tag):
     """Return the result files that the summary of a tag's designs reads."""
-    files = ["folded/quality.json", "sizing/final.json", "mesh_study.json"]
+    files = ["folded/quality.json", "sizing/final.json", "mesh_convergence.json"]
     files.append("crosscheck/comparison.json")
     return [f"{RESULTS}/{name}/{file}" for name in names_of_tag(tag) for file in files]
 
@@ -22,7 +22,7 @@ rule summary:
         "summary of the study"
     input:
         results=summary_inputs(SETTINGS.study),
-        library=library("summary"),
+        library=code_inputs("summary"),
     output:
         csv=f"{RESULTS}/summary.csv",
         xlsx=f"{RESULTS}/summary.xlsx",
@@ -41,7 +41,7 @@ use rule summary as summary_of_tag with:
         "summary of {wildcards.tag}"
     input:
         results=lambda wildcards: summary_inputs(wildcards.tag),
-        library=library("summary"),
+        library=code_inputs("summary"),
     output:
         csv=f"{RESULTS}/tags/{{tag}}/summary.csv",
         xlsx=f"{RESULTS}/tags/{{tag}}/summary.xlsx",
@@ -57,7 +57,7 @@ rule timings:
     input:
         rules.summary.output.csv,
         study_files(SETTINGS.study),
-        library=library("timings"),
+        library=code_inputs("timings"),
     output:
         csv=report(
             f"{RESULTS}/timings.csv",

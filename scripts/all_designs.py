@@ -5,10 +5,10 @@ from pathlib import Path
 from typing import Any
 
 from foldshell.figures.contact_sheet import draw_sheets, make_tile
-from foldshell.figures.drafts import read_limits, subject_of_design
 from foldshell.figures.layout import save_png
 from foldshell.figures.study_data import read_states
-from foldshell.study.errors import user_errors
+from foldshell.files.errors import user_errors
+from foldshell.results.design_view import read_limits, view_design
 
 
 def main(
@@ -23,7 +23,7 @@ def main(
     `results` has a folder a design; `settings` are the plain parameters of stage `size`.
     """
     tiles = [
-        make_tile(subject_of_design(state, settings, design.number["span_m"], design.pattern))
+        make_tile(view_design(state, settings, design.number["span_m"], design.pattern))
         for design, state in read_states(summary_path, results, settings["combinations"])
     ]
     for name, page in draw_sheets(tiles, read_limits(settings).utilization_max).items():

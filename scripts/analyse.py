@@ -5,12 +5,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from foldshell.engine.progress import describe_iteration
+from foldshell.files.edits import keep_edited
+from foldshell.files.errors import user_errors
+from foldshell.files.whole import hash_file, read_arrays, read_json, write_arrays, write_json
 from foldshell.sizing.case import make_stop_rule, open_case
 from foldshell.sizing.iteration import IterationTask
-from foldshell.sizing.progress import describe_iteration
-from foldshell.study.errors import user_errors
-from foldshell.study.files import hash_file, read_arrays, read_json, write_arrays, write_json
-from foldshell.workbook.edits import keep_edited
 from foldshell.workbook.panels import make_panel_grid
 from foldshell.workbook.read_thickness import read_thickness
 

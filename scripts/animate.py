@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
+from foldshell.files.errors import user_errors
 from foldshell.folding.animation import draw_states, list_states, write_animation, write_stills
 from foldshell.pattern.fold_format import read_fold
-from foldshell.study.errors import user_errors
 
 
 def main(
@@ -14,7 +14,7 @@ def main(
     *,
     seconds_per_frame: float = 0.2,
 ) -> None:
-    """Read crease_pattern.fold or true_pattern.fold; write the path as GIF, stills if asked."""
+    """Read crease_pattern.fold or developable_pattern.fold; write the path as GIF and stills."""
     sheet = read_fold(fold_path)
     images = draw_states(list_states(sheet), sheet.grid)
     if stills_folder:

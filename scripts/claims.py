@@ -4,13 +4,13 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from foldshell.study.claims.gather import Sources, read_sources
-from foldshell.study.claims.outcome import make_comparer
-from foldshell.study.claims.study import judge_study, list_runs, write_spread
-from foldshell.study.claims.words import write_claims
-from foldshell.study.errors import user_errors
-from foldshell.study.files import atomic_path, write_json
-from foldshell.study.sensitivity import describe_variants
+from foldshell.claims.gather import Sources, read_sources
+from foldshell.claims.outcome import make_comparer
+from foldshell.claims.sensitivity import describe_variants
+from foldshell.claims.study import judge_study, list_runs, write_spread
+from foldshell.claims.words import write_claims
+from foldshell.files.errors import user_errors
+from foldshell.files.whole import atomic_path, write_json
 from foldshell.workbook.tables import write_csv
 
 

@@ -2,9 +2,9 @@
 
 from pathlib import Path
 
+from foldshell.files.errors import user_errors
+from foldshell.files.whole import atomic_path
 from foldshell.report.study_pages import write_markdown_page
-from foldshell.study.errors import user_errors
-from foldshell.study.files import atomic_path
 
 
 def main(claims: str | Path, page: str | Path) -> None:

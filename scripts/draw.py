@@ -1,15 +1,15 @@
-"""Rule draw: the pictures of a design, its final fields and its force lines as VTU."""
+"""Rule draw: the pictures of a design, its final fields and its principal stress lines as VTU."""
 
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from foldshell.exchange.design_vtu import write_design_vtu, write_lines_vtu
-from foldshell.figures.drafts import subject_of_design
 from foldshell.figures.layout import save_png
 from foldshell.figures.pictures import draw_design
-from foldshell.figures.state import read_state
-from foldshell.study.errors import user_errors
+from foldshell.files.errors import user_errors
+from foldshell.results.design_view import view_design
+from foldshell.results.state import read_state
 
 
 def main(
@@ -31,7 +31,7 @@ def main(
     `settings` are the parameters of stages `size` and `figures`, report_path is final.json."""
     files = mesh_path, folded_path, final_path, report_path
     state = read_state(design, *files, settings["combinations"], classes_path)
-    subject = subject_of_design(state, settings, span_m, pattern)
+    subject = view_design(state, settings, span_m, pattern)
     write_design_vtu(vtu_path, state, subject.elasticity)
     write_lines_vtu(lines_path, subject)
     figures = settings["figures"]

@@ -4,10 +4,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from foldshell.study.errors import user_errors
-from foldshell.study.files import read_arrays, read_json, write_json
-from foldshell.study.flat_equal import analyse_flat
-from foldshell.study.measures import Layout
+from foldshell.claims.flat_equal import analyse_flat
+from foldshell.claims.measures import Layout
+from foldshell.files.errors import user_errors
+from foldshell.files.whole import read_arrays, read_json, write_json
 
 
 def main(

@@ -4,12 +4,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from foldshell.files.errors import InputError, user_errors
 from foldshell.folding.files import write_folded, write_folded_vtu, write_quality
 from foldshell.folding.fold import fold_sheet
 from foldshell.folding.settings import read_settings
 from foldshell.folding.targets import make_target
 from foldshell.pattern.fold_format import read_fold
-from foldshell.study.errors import InputError, user_errors
 
 
 def main(

@@ -4,10 +4,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from foldshell.files.errors import InputError, user_errors
+from foldshell.files.whole import read_arrays, read_json, write_arrays, write_json
 from foldshell.sizing.case import open_case
 from foldshell.sizing.grouping import analyse_classes
-from foldshell.study.errors import InputError, user_errors
-from foldshell.study.files import read_arrays, read_json, write_arrays, write_json
 
 
 def main(

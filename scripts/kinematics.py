@@ -3,11 +3,11 @@
 import math
 from pathlib import Path
 
-from foldshell.folding.kinematics_figure import draw_kinematics
-from foldshell.folding.kinematics_study import study_sheet, study_strengths, tabulate_ratios
+from foldshell.files.errors import user_errors
+from foldshell.files.whole import write_json
 from foldshell.folding.settings import FoldSettings
-from foldshell.study.errors import user_errors
-from foldshell.study.files import write_json
+from foldshell.kinematics.figure import draw_kinematics
+from foldshell.kinematics.study import study_sheet, study_strengths, tabulate_ratios
 
 
 def main(

@@ -4,11 +4,11 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from foldshell.files.errors import InputError, user_errors
+from foldshell.files.whole import read_arrays
 from foldshell.folding.intersections import find_piercing
 from foldshell.shell.edge_beams import make_edge_beam
 from foldshell.shell.mesh_files import mesh_folded_sheet, read_mesh, write_mesh, write_mesh_vtu
-from foldshell.study.errors import InputError, user_errors
-from foldshell.study.files import read_arrays
 
 
 def main(

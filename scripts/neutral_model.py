@@ -5,8 +5,8 @@ from pathlib import Path
 from typing import Any
 
 from foldshell.exchange.neutral_model import make_neutral_model
-from foldshell.study.errors import user_errors
-from foldshell.study.files import read_arrays, write_json
+from foldshell.files.errors import user_errors
+from foldshell.files.whole import read_arrays, write_json
 
 
 def main(

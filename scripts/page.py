@@ -4,13 +4,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from foldshell.figures.drafts import subject_of_design
-from foldshell.figures.state import read_state
+from foldshell.files.errors import user_errors
+from foldshell.files.whole import atomic_path
 from foldshell.report.page import write_design_page
 from foldshell.report.sections import read_files
 from foldshell.report.view import make_view
-from foldshell.study.errors import user_errors
-from foldshell.study.files import atomic_path
+from foldshell.results.design_view import view_design
+from foldshell.results.state import read_state
 
 ARRAYS = ("mesh", "folded", "arrays", "final")
 """Inputs that hold the final state; `classes` are added to it."""
@@ -28,7 +28,7 @@ def main(
 
     Parameters
     ----------
-    paths : mesh, folded, arrays, class_arrays (npz), final, quality, classes, mesh_study,
+    paths : mesh, folded, arrays, class_arrays (npz), final, quality, classes, mesh_convergence,
         comparison (json), history (csv)
     pictures : PNG files by name
     design : row of designs.tsv
@@ -37,7 +37,7 @@ def main(
     state_paths = [paths[name] for name in ARRAYS]
     combinations, name = settings["combinations"], design["design"]
     state = read_state(name, *state_paths, combinations, paths["class_arrays"])
-    subject = subject_of_design(state, settings, design["span_m"], design["pattern"])
+    subject = view_design(state, settings, design["span_m"], design["pattern"])
     files = read_files(design, paths)
     limit = subject.limits.utilization_max
     page = write_design_page(files, make_view(subject), pictures, limit)

@@ -2,11 +2,11 @@
 
 from pathlib import Path
 
+from foldshell.files.errors import InputError, user_errors
 from foldshell.folding.targets import make_target, measure_turning
 from foldshell.pattern.design import design_sheet
 from foldshell.pattern.drawings import draw_pattern, write_dxf, write_svg
 from foldshell.pattern.fold_format import write_fold
-from foldshell.study.errors import InputError, user_errors
 
 
 def main(

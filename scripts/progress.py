@@ -4,7 +4,7 @@ import argparse
 import os
 from pathlib import Path
 
-from foldshell.sizing.progress import read_progress, show_progress
+from foldshell.engine.progress import read_progress, show_progress
 
 
 def main(results: str | Path, designs: list[str], cores: int) -> str:

@@ -7,8 +7,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from foldshell.study.errors import InputError, user_errors
-from foldshell.study.files import atomic_path
+from foldshell.files.errors import InputError, user_errors
+from foldshell.files.whole import atomic_path
 
 
 def main(

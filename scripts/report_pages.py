@@ -6,14 +6,14 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
+from foldshell.files.errors import user_errors
+from foldshell.files.whole import atomic_path
 from foldshell.report.study_pages import (
     write_markdown_page,
     write_settings_page,
     write_summary_page,
 )
-from foldshell.study.errors import user_errors
-from foldshell.study.files import atomic_path
-from foldshell.study.stages import settings_hash
+from foldshell.settings.stages import settings_hash
 
 PACKAGES = ("snakemake", "numpy", "scipy", "vtk", "meshio", "XlsxWriter", "openpyxl", "Pillow",
             "matplotlib")  # fmt: skip

@@ -4,10 +4,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from foldshell.files.edits import record_written
+from foldshell.files.errors import user_errors
+from foldshell.files.whole import read_arrays, read_json, write_arrays
 from foldshell.sizing.step import summarise_step, take_step
-from foldshell.study.errors import user_errors
-from foldshell.study.files import read_arrays, read_json, write_arrays
-from foldshell.workbook.edits import record_written
 from foldshell.workbook.panels import ThicknessTable, make_panel_grid
 from foldshell.workbook.write_thickness import write_thickness
 

@@ -4,12 +4,12 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from foldshell.claims.measures import Layout, measure_state
+from foldshell.claims.sensitivity import VARIANTS, change_settings
+from foldshell.files.errors import user_errors
+from foldshell.files.whole import read_arrays, write_json
 from foldshell.sizing.case import open_case
 from foldshell.sizing.loop import run_loop
-from foldshell.study.errors import user_errors
-from foldshell.study.files import read_arrays, write_json
-from foldshell.study.measures import Layout, measure_state
-from foldshell.study.sensitivity import VARIANTS, change_settings
 
 
 def main(

@@ -7,11 +7,11 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from foldshell.sizing.gather import gather_iterations, remove_superseded
-from foldshell.sizing.report import make_design_report
-from foldshell.study.errors import user_errors
-from foldshell.study.files import atomic_path, read_arrays, read_json, write_json
+from foldshell.files.errors import user_errors
+from foldshell.files.whole import atomic_path, read_arrays, read_json, write_json
+from foldshell.results.gather import gather_iterations, remove_superseded
 from foldshell.workbook.design import write_design
+from foldshell.workbook.design_report import make_design_report
 from foldshell.workbook.history import write_history, write_history_csv
 
 PACKAGES = ("numpy", "scipy", "cvxopt", "snakemake", "openpyxl", "XlsxWriter")

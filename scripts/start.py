@@ -4,8 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
-from foldshell.study.errors import user_errors
-from foldshell.workbook.edits import record_written
+from foldshell.files.edits import record_written
+from foldshell.files.errors import user_errors
 from foldshell.workbook.panels import ThicknessTable, make_panel_grid
 from foldshell.workbook.write_thickness import write_thickness
 

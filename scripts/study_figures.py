@@ -5,10 +5,10 @@ from pathlib import Path
 from typing import Any
 
 from foldshell.figures.charts import draw_axes_comparison, draw_comparison, save_figure
-from foldshell.figures.drafts import read_limits
 from foldshell.figures.planarity_chart import draw_planarity_chart
 from foldshell.figures.study_data import COMPARISONS, add_fields, read_states
-from foldshell.study.errors import user_errors
+from foldshell.files.errors import user_errors
+from foldshell.results.design_view import read_limits
 
 OTHERS = {"axes": draw_axes_comparison, "planarity_utilization": draw_planarity_chart}
 CHARTS = (*COMPARISONS, *OTHERS)

@@ -4,9 +4,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from foldshell.study.errors import InputError, user_errors
-from foldshell.study.stages import settings_hash
-from foldshell.study.summary import SUMMARY_KEYS, make_summary_row
+from foldshell.files.errors import InputError, user_errors
+from foldshell.results.summary import SUMMARY_KEYS, make_summary_row
+from foldshell.settings.stages import settings_hash
 from foldshell.workbook.summary import write_summary
 from foldshell.workbook.tables import write_csv
 

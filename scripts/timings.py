@@ -2,8 +2,8 @@
 
 from pathlib import Path
 
-from foldshell.study.files import atomic_path
-from foldshell.study.timings import collect_timings
+from foldshell.engine.timings import collect_timings
+from foldshell.files.whole import atomic_path
 
 
 def main(folder: str | Path, csv_path: str | Path) -> None:

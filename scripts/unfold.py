@@ -4,11 +4,11 @@ from pathlib import Path
 
 import numpy as np
 
+from foldshell.files.errors import InputError, user_errors
+from foldshell.files.whole import read_arrays
 from foldshell.pattern.drawings import draw_pattern, write_dxf, write_svg
 from foldshell.pattern.fold_format import read_fold, write_fold
 from foldshell.pattern.unfold import describe_true_sheet
-from foldshell.study.errors import InputError, user_errors
-from foldshell.study.files import read_arrays
 
 
 def main(
@@ -21,7 +21,7 @@ def main(
     design: str,
     frames: int = 9,
 ) -> None:
-    """Read crease_pattern.fold and folded.npz; write true_pattern.fold, .dxf and .svg.
+    """Read crease_pattern.fold and folded.npz; write developable_pattern.fold, .dxf and .svg.
 
     The flat state is the one that folded.npz records: the given pattern in paper and isometric
     mode, the unfolded panels in exact and rigid mode. The folded shape is a frame, and before

@@ -8,13 +8,13 @@ import argparse
 import sys
 from pathlib import Path
 
-from foldshell.study.verification import (
+from foldshell.engine.integrity import (
     find_dependents,
     find_faults,
     keep_current,
     read_records,
 )
-from foldshell.workbook.edits import keep_edited
+from foldshell.files.edits import keep_edited
 
 
 def main(root: str | Path = ".", results: str = "results", repair: bool = False) -> list[str]:

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from foldshell.study.claims.outcome import Outcome
+from foldshell.claims.outcome import Outcome
 
 ERRORS = {name: (0.03, 0.04) for name in ("displacement", "utilization", "buckling")}
 """Mesh error 3 % and cross-check difference 4 %: 5 % together."""

@@ -6,13 +6,13 @@ from typing import Any
 
 import numpy as np
 
-from foldshell.shell.loads import Loads
-from foldshell.shell.material import Material
+from foldshell.loads.cases import Loads
+from foldshell.settings.config_file import read_config
+from foldshell.settings.make import make_settings
+from foldshell.settings.material import Material
+from foldshell.settings.stages import stage_parameters
 from foldshell.shell.mesh_files import mesh_folded_sheet, write_mesh
 from foldshell.sizing.iteration import LoadPlan
-from foldshell.study.config_file import read_config
-from foldshell.study.settings import make_settings
-from foldshell.study.stages import stage_parameters
 
 CONFIG = Path(__file__).parents[1] / "config" / "config.yaml"
 ZIGZAG, STRIP = 4, 5

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foldshell.shell.loads import Loads, surface_loads
+from foldshell.loads.cases import Loads, surface_loads
 from foldshell.shell.mesh import build_mesh, edge_polyline_nodes
 from foldshell.shell.supports import supported_pairs
 from verification.folded_cases import CONCRETE, FoldedCase, load_sheet

@@ -113,11 +113,12 @@ def run_calculix(case, n, element, _system, task):
 
 def run_foldshell(case, n, _element, solver, task):
     """Return CPU s, wall s, dofs and the largest downward displacement."""
+    from foldshell.loads.cases import Loads, surface_loads
     from foldshell.shell.analysis import build_model
     from foldshell.shell.assembly import assemble_stiffness
     from foldshell.shell.linear_solver import factorise
-    from foldshell.shell.loads import Loads, nodal_forces, surface_loads
     from foldshell.shell.mesh_files import mesh_folded_sheet, mesh_from_arrays
+    from foldshell.shell.nodal_loads import nodal_forces
     from verification.folded_cases import load_sheet
 
     if task in TASKS:

@@ -5,13 +5,14 @@ import time
 import numpy as np
 from scipy.sparse import csr_array
 
+from foldshell.checks.utilization import compute_utilization
+from foldshell.loads.cases import Loads, combination_matrix, surface_loads
 from foldshell.shell.analysis import analyse_shell, build_model
 from foldshell.shell.assembly import assemble_stiffness
 from foldshell.shell.geometric import apply_geometric, geometric_tables, pull_back
 from foldshell.shell.linear_solver import factorise
-from foldshell.shell.loads import Loads, combination_matrix, nodal_forces, surface_loads
 from foldshell.shell.mesh_files import mesh_folded_sheet, mesh_from_arrays
-from foldshell.shell.results import compute_utilization
+from foldshell.shell.nodal_loads import nodal_forces
 from foldshell.shell.second_order import solve_second_order
 from foldshell.shell.stress import membrane_forces
 from verification.folded_cases import CONCRETE, load_sheet

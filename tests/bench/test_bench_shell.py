@@ -18,7 +18,7 @@ from pathlib import Path
 
 import pytest
 
-from foldshell.study.environment import KEEP_MEMORY, ONE_THREAD
+from foldshell.engine.environment import KEEP_MEMORY, ONE_THREAD
 from verification.folded_cases import CASES
 
 pytestmark = pytest.mark.bench

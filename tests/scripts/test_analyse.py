@@ -5,9 +5,9 @@ import pytest
 
 import analyse
 import start
+from foldshell.files.errors import InputError
+from foldshell.files.whole import hash_file, read_arrays, read_json, write_arrays
 from foldshell.sizing.case import open_case
-from foldshell.study.errors import InputError
-from foldshell.study.files import hash_file, read_arrays, read_json, write_arrays
 from sizing_case import PANELS, SPAN, STRIP, ZIGZAG, stage, write_small_mesh
 
 KEYS = """

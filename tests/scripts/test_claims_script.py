@@ -9,14 +9,14 @@ import pytest
 import claims
 import flat_equal
 import sensitivity
+from foldshell.claims.read import read_errors
+from foldshell.claims.sensitivity import VARIANTS, change_settings, describe_variants
+from foldshell.files.errors import InputError
+from foldshell.files.whole import read_json, write_arrays, write_json
 from foldshell.shell.mesh_files import mesh_folded_sheet
 from foldshell.sizing.case import make_case
 from foldshell.sizing.iteration import IterationTask
 from foldshell.sizing.loop import run_loop
-from foldshell.study.claims.read import read_errors
-from foldshell.study.errors import InputError
-from foldshell.study.files import read_json, write_arrays, write_json
-from foldshell.study.sensitivity import VARIANTS, change_settings, describe_variants
 from sizing_case import DESIGN, PANELS, SPAN, STRIP, ZIGZAG, corrugated_sheet, stage
 
 LAYOUT = (ZIGZAG, STRIP, "strip")
@@ -46,7 +46,7 @@ def _write_design(folder):
     names = ("edge_strain_rms", "edge_strain_max", "planarity_max", "angle_defect_max_rad")
     write_json(folder / "folded/quality.json", dict.fromkeys(names, 0.01))
     errors = {"displacement_down_max_m": 0.02, "utilization_panel_mean_max": 0.01}
-    write_json(folder / "mesh_study.json", {"errors": {"S2": errors, "D2": errors}})
+    write_json(folder / "mesh_convergence.json", {"errors": {"S2": errors, "D2": errors}})
     found = {"relative_difference": 0.01, "primary": 1.0, "primary_meshes": [1.02, 1.0]}
     quantities = {f"{c} {q}": found for c in ("S2", "D2") for q in (*errors, "buckling_factor")}
     write_json(folder / "crosscheck/comparison.json", {"pass": True, "quantities": quantities})
@@ -127,8 +127,8 @@ def test_mesh_error_of_the_cross_check_stands_in_where_the_mesh_study_has_none(s
 
 
 def test_a_missing_result_is_named(study):
-    (study / "small/mesh_study.json").unlink()
-    with pytest.raises(InputError, match=r"mesh_study\.json.*delete"):
+    (study / "small/mesh_convergence.json").unlink()
+    with pytest.raises(InputError, match=r"mesh_convergence\.json.*delete"):
         _judge(study)
 
 

@@ -5,11 +5,11 @@ import pytest
 from PIL import Image
 
 import draw
-from foldshell.study.errors import InputError
-from unit.figures.figure_cases import COMBINATIONS, write_case
+from figure_cases import COMBINATIONS, write_case
+from foldshell.files.errors import InputError
 
 NAMES = ("thickness", "classes", "utilization", "displacement", "planarity", "strain",
-         "force_lines", "isolines", "buckling")  # fmt: skip
+         "principal_stress_lines", "isolines", "buckling")  # fmt: skip
 SETTINGS = {
     "combinations": COMBINATIONS,
     "material": {"youngs_modulus": 31e6, "poissons_ratio": 0.2},

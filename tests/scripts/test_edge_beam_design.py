@@ -14,15 +14,15 @@ import mesh
 import resize
 import size
 import start
-from foldshell.figures.drafts import subject_of_design
-from foldshell.figures.state import read_state
+from foldshell.files.whole import read_arrays, read_json, write_arrays
 from foldshell.report.arrays import pack_arrays, unpack_arrays
 from foldshell.report.view import make_view
+from foldshell.results.design_view import view_design
+from foldshell.results.state import read_state
+from foldshell.results.summary import make_summary_row
 from foldshell.shell.mesh_files import read_mesh
 from foldshell.sizing.case import open_case
 from foldshell.sizing.iteration import IterationTask
-from foldshell.study.files import read_arrays, read_json, write_arrays
-from foldshell.study.summary import make_summary_row
 from foldshell.workbook.panels import make_panel_grid
 from foldshell.workbook.read_thickness import read_thickness
 from sizing_case import DESIGN, PANELS, SPAN, STRIP, ZIGZAG, corrugated_sheet, stage
@@ -143,7 +143,7 @@ def test_page_shows_the_strips(folder):
     loop = folder / "sizing"
     inputs = [folder / "mesh.npz", folder / "folded.npz", loop / "final.npz", loop / "final.json"]
     state = read_state("small", *inputs, stage("size")["combinations"], loop / "classes.npz")
-    view = make_view(subject_of_design(state, stage("size"), SPAN, "miura"))
+    view = make_view(view_design(state, stage("size"), SPAN, "miura"))
     arrays = unpack_arrays(*pack_arrays(view.arrays))
     strips = slice(PANELS, PANELS + STRIPS)
     known = read_arrays(loop / "final.npz")["edge_beam_utilization_panel_mean"]

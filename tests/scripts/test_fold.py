@@ -9,9 +9,9 @@ import pytest
 
 import fold
 import pattern
+from foldshell.files.errors import InputError
+from foldshell.files.whole import read_arrays
 from foldshell.folding.targets import make_target
-from foldshell.study.errors import InputError
-from foldshell.study.files import read_arrays
 
 
 def _run(folder, kind="miura", **values):

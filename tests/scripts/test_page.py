@@ -11,7 +11,7 @@ import pytest
 import page
 from foldshell.report import page as library
 from foldshell.report.arrays import unpack_arrays
-from unit.report.report_cases import DESIGN, SETTINGS, read_data, write_files
+from report_cases import DESIGN, SETTINGS, read_data, write_files
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("chrome")
 

@@ -3,8 +3,8 @@
 import pytest
 
 import pattern
+from foldshell.files.errors import InputError
 from foldshell.pattern.fold_format import read_fold
-from foldshell.study.errors import InputError
 
 
 def test_writes_a_sheet_sized_for_its_target(tmp_path):

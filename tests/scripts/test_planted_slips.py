@@ -24,17 +24,17 @@ from crosscheck.primary import read_primary
 from crosscheck.system import SHEAR_FACTOR
 from crosscheck_models import DATA, write_model
 from foldshell.exchange.neutral_model import make_neutral_model
+from foldshell.files.whole import write_json
+from foldshell.loads.cases import Loads
+from foldshell.loads.cases import surface_loads as primary_loads
+from foldshell.results import mesh_convergence as mesh_convergence
+from foldshell.settings.make import make_settings
+from foldshell.settings.material import Material
+from foldshell.settings.stages import stage_parameters
 from foldshell.shell import analysis as primary_analysis
 from foldshell.shell import geometric as primary_geometric
-from foldshell.shell import mesh_study
-from foldshell.shell.loads import Loads
-from foldshell.shell.loads import surface_loads as primary_loads
-from foldshell.shell.material import Material
 from foldshell.shell.mesh import edge_polyline_nodes
 from foldshell.shell.mesh_files import mesh_folded_sheet, mesh_from_arrays
-from foldshell.study.files import write_json
-from foldshell.study.settings import make_settings
-from foldshell.study.stages import stage_parameters
 
 SETTINGS = stage_parameters(make_settings({}), "crosscheck")
 LINES = 5
@@ -85,7 +85,7 @@ def choose_combinations(settings):
 
 
 def run_primary(inputs, folder, monkeypatch):
-    """The primary code's values, as rule `refine` writes them."""
+    """The primary code's values, as rule `mesh_convergence` writes them."""
 
     def mesh_sheet(_folded, _support, subdivisions, order=None, edge_beam=None):
         return mesh_corner(inputs, subdivisions, order=order)
@@ -96,12 +96,12 @@ def run_primary(inputs, folder, monkeypatch):
         return result
 
     with monkeypatch.context() as patch:
-        patch.setattr(mesh_study, "mesh_folded_sheet", mesh_sheet)
+        patch.setattr(mesh_convergence, "mesh_folded_sheet", mesh_sheet)
         if inputs.vertical:
             patch.setattr(primary_analysis, "surface_loads", load_surface)
         if inputs.membrane != 1:
             scale_result(patch, primary_geometric, "pull_back", inputs.membrane)
-        study = mesh_study.study_mesh(
+        study = mesh_convergence.study_mesh(
             folded_corner(), "zigzag", inputs.thickness, 4, Material(**inputs.settings["material"]),
             Loads(**inputs.settings["loads"]), choose_combinations(inputs.settings),
         )  # fmt: skip

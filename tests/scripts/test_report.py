@@ -6,7 +6,7 @@ import sys
 import pytest
 
 import report
-from foldshell.study.errors import InputError
+from foldshell.files.errors import InputError
 
 SNAKEFILE = """
 rule all:

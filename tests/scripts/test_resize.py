@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 import resize
-from foldshell.study.files import read_arrays, write_arrays, write_json
-from foldshell.workbook.edits import is_edited
+from foldshell.files.edits import is_edited
+from foldshell.files.whole import read_arrays, write_arrays, write_json
 from foldshell.workbook.panels import make_panel_grid
 from foldshell.workbook.read_thickness import read_thickness
 from sizing_case import PANELS, STRIP, ZIGZAG, stage

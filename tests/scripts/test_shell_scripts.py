@@ -1,4 +1,4 @@
-"""Entry scripts of the rules mesh, neutral_model and refine on a small sheet."""
+"""Entry scripts of the rules mesh, neutral_model and mesh_convergence on a small sheet."""
 
 import runpy
 from dataclasses import replace
@@ -9,15 +9,15 @@ import numpy as np
 import pytest
 
 import mesh
+import mesh_convergence
 import neutral_model
-import refine
 from foldshell.exchange.neutral_model import EDGE_BEAM_FORMAT, FORMAT
-from foldshell.shell import mesh_study
+from foldshell.files.errors import InputError
+from foldshell.files.whole import read_json, write_arrays
+from foldshell.results import mesh_convergence as convergence
+from foldshell.settings.make import make_settings
+from foldshell.settings.stages import stage_parameters
 from foldshell.shell.mesh_files import read_mesh
-from foldshell.study.errors import InputError
-from foldshell.study.files import read_json, write_arrays
-from foldshell.study.settings import make_settings
-from foldshell.study.stages import stage_parameters
 from sizing_case import PANELS, corrugated_sheet
 
 SCRIPTS = Path(__file__).parents[2] / "scripts"
@@ -51,10 +51,10 @@ def run_neutral_model(folder):
     return read_json(files[-1])
 
 
-def run_refine(folder, subdivisions=2, **options):
-    """Run the script of the rule refine; return the mesh study and the primary code's values."""
+def run_mesh_convergence(folder, subdivisions=2, **options):
+    """Run the script of the rule mesh_convergence; return its study and the primary values."""
     files = [folder / name for name in ("folded.npz", "final.npz", "study.json", "primary.json")]
-    refine.main(
+    mesh_convergence.main(
         *files, support="zigzag", subdivisions=subdivisions, settings=SETTINGS, **options
     )  # fmt: skip
     return read_json(files[2]), read_json(files[3])
@@ -115,7 +115,7 @@ def test_neutral_model_says_everything_in_plain_numbers(folder):
 
 
 def test_refine_gives_two_meshes_and_the_error_of_the_first(folder):
-    study, primary = run_refine(folder)
+    study, primary = run_mesh_convergence(folder)
     assert study["subdivisions"] == 2 and primary["subdivisions"] == [2, 12]
     assert set(primary["combinations"]) == {"S2", "D2"}
     coarse, fine = primary["combinations"]["S2"]["work_knm"]
@@ -130,15 +130,15 @@ def test_refine_gives_two_meshes_and_the_error_of_the_first(folder):
 
 def test_refine_of_a_mechanism_gives_its_reason_in_place_of_numbers(folder, monkeypatch):
     """The analysis of a mechanism has no displacements, which JSON could not hold either."""
-    real = mesh_study.analyse_shell
+    real = convergence.analyse_shell
 
     def give_way(*arguments):
         result = real(*arguments)
         nothing = np.full_like(result.displacement, np.nan)
         return replace(result, state="mechanism", reason="node 3 moves", displacement=nothing)
 
-    monkeypatch.setattr(mesh_study, "analyse_shell", give_way)
-    study, primary = run_refine(folder)
+    monkeypatch.setattr(convergence, "analyse_shell", give_way)
+    study, primary = run_mesh_convergence(folder)
     assert study["mesh_error"] is None and study["errors"] == {}
     assert primary["reason"] == "node 3 moves" and primary["combinations"] == {}
 
@@ -178,7 +178,7 @@ def test_a_design_with_an_edge_beam_passes_the_cross_check(beam_folder):
     """
     crosscheck = runpy.run_path(str(SCRIPTS / "crosscheck.py"))["main"]
     run_neutral_model(beam_folder)
-    run_refine(beam_folder, subdivisions=4, edge_beam=[0.4, 0.1])
+    run_mesh_convergence(beam_folder, subdivisions=4, edge_beam=[0.4, 0.1])
     names = ("model.json", "primary.json", "comparison.json", "comparison.xlsx")
     files = [beam_folder / name for name in names]
     crosscheck(*files, subdivisions=[1, 2])

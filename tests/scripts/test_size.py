@@ -11,8 +11,8 @@ import group
 import resize
 import size
 import start
-from foldshell.study.errors import InputError
-from foldshell.study.files import read_arrays, read_json
+from foldshell.files.errors import InputError
+from foldshell.files.whole import read_arrays, read_json
 from sizing_case import DESIGN, PANELS, SPAN, STRIP, ZIGZAG, stage, write_small_mesh
 
 PLACE = {"zigzag": ZIGZAG, "strip": STRIP}

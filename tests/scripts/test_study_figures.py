@@ -7,8 +7,8 @@ from PIL import Image
 
 import all_designs
 import study_figures
+from figure_cases import COMBINATIONS, write_case
 from foldshell.figures.study_data import NUMBERS
-from unit.figures.figure_cases import COMBINATIONS, write_case
 
 SETTINGS = {
     "combinations": COMBINATIONS,

@@ -7,10 +7,10 @@ import openpyxl
 import pytest
 
 import summary
-from foldshell.study.errors import InputError
-from foldshell.study.settings import make_settings
-from foldshell.study.stages import settings_hash, stage_parameters
-from foldshell.study.summary import SUMMARY_KEYS
+from foldshell.files.errors import InputError
+from foldshell.results.summary import SUMMARY_KEYS
+from foldshell.settings.make import make_settings
+from foldshell.settings.stages import settings_hash, stage_parameters
 
 SETTINGS = stage_parameters(make_settings({}), "study")
 CONTRACT = [
@@ -94,7 +94,7 @@ def test_columns_begin_as_in_the_contract():
 def test_a_converged_design(tmp_path):
     folder = tmp_path / "results/a"
     write_results(folder)
-    write(folder / "mesh_study.json", {"mesh_error": 0.021, "buckling_mesh_error": 0.17})
+    write(folder / "mesh_convergence.json", {"mesh_error": 0.021, "buckling_mesh_error": 0.17})
     write(folder / "crosscheck/comparison.json", {"pass": True, "quantities": {}})
     (row,) = run(tmp_path, ["a"])
     assert row["state"] == "converged" and row["iterations"] == "3"

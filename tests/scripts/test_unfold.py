@@ -9,9 +9,9 @@ import pytest
 import fold
 import pattern
 import unfold
+from foldshell.files.errors import InputError
+from foldshell.files.whole import read_arrays
 from foldshell.pattern.fold_format import read_fold
-from foldshell.study.errors import InputError
-from foldshell.study.files import read_arrays
 
 
 def _run(folder, mode):

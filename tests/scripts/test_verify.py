@@ -9,9 +9,9 @@ import numpy as np
 import pytest
 
 import verify
-from foldshell.study.files import hash_file, write_arrays, write_json
-from foldshell.study.verification import find_dependents, keep_current, read_records
-from foldshell.workbook.edits import record_written
+from foldshell.engine.integrity import find_dependents, keep_current, read_records
+from foldshell.files.edits import record_written
+from foldshell.files.whole import hash_file, write_arrays, write_json
 
 HOME = "results/a/sizing"
 ENDED = 1_700_000_000.0

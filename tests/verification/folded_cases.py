@@ -9,11 +9,12 @@ from pathlib import Path
 
 import numpy as np
 
+from foldshell.checks.utilization import area_percentile, compute_utilization
+from foldshell.loads.cases import Loads
+from foldshell.settings.material import Material
 from foldshell.shell.analysis import AnalysisOptions, analyse_shell, build_model
-from foldshell.shell.loads import Loads
-from foldshell.shell.material import Material
 from foldshell.shell.mesh_files import mesh_folded_sheet, mesh_from_arrays
-from foldshell.shell.results import area_percentile, compute_utilization, largest_downward
+from foldshell.shell.results import largest_downward
 
 DATA = Path(__file__).parents[1] / "data"
 CONCRETE = Material("C25/30", 31e6, 0.2, 25.0, 16_700.0, 1_670.0)

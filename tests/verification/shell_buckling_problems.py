@@ -12,8 +12,8 @@ from foldshell.shell.assembly import assemble_stiffness, rotation_dofs, translat
 from foldshell.shell.buckling import find_buckling_factors
 from foldshell.shell.geometric import apply_geometric
 from foldshell.shell.linear_solver import factorise
-from foldshell.shell.loads import nodal_forces
 from foldshell.shell.mesh import build_mesh
+from foldshell.shell.nodal_loads import nodal_forces
 from foldshell.shell.reference import EDGES
 from foldshell.shell.second_order import solve_second_order
 from foldshell.shell.stress import membrane_forces

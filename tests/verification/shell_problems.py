@@ -11,8 +11,8 @@ import numpy as np
 from foldshell.shell.analysis import build_model
 from foldshell.shell.assembly import assemble_stiffness, rotation_dofs, translation_dofs
 from foldshell.shell.linear_solver import factorise
-from foldshell.shell.loads import nodal_forces
 from foldshell.shell.mesh import ShellMesh, build_mesh
+from foldshell.shell.nodal_loads import nodal_forces
 from foldshell.shell.reference import EDGES
 
 NONE = np.empty(0, dtype=int)

@@ -11,6 +11,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from foldshell.kinematics.reverse_fold import fold_by_rules, travel_at
 from foldshell.pattern.angles import (
     developability_residual,
     flat_foldability_residual,
@@ -23,7 +24,6 @@ from foldshell.pattern.miura import (
     folded_vertices,
     poissons_ratio,
 )
-from foldshell.pattern.reverse_fold import fold_by_rules, travel_at
 from foldshell.pattern.unfold import fold_panels, unfold_panels
 
 pytestmark = pytest.mark.verification

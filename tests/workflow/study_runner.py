@@ -114,7 +114,9 @@ def find_jobs(process: subprocess.Popen) -> list[int]:
         ["ps", "-o", "pid=,ppid=,args=", "--sid", str(process.pid)], capture_output=True, text=True
     )
     lines = [line.split(maxsplit=2) for line in listed.stdout.splitlines()]
-    servers = {pid: parent for pid, parent, words in lines if "/forks/server.py" in words}
+    servers = {
+        pid: parent for pid, parent, words in lines if "/foldshell/engine/fork_server.py" in words
+    }
     return [int(pid) for pid, parent in servers.items() if parent in servers]
 
 

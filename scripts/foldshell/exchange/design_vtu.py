@@ -15,8 +15,8 @@ from pathlib import Path
 import numpy as np
 
 from foldshell.exchange.vtu import write_vtu
-from foldshell.figures.drafts import Elasticity, Subject
-from foldshell.figures.fields import (
+from foldshell.results.design_view import DesignView, Elasticity
+from foldshell.results.fields import (
     cell_thickness,
     choose_deflection,
     choose_strength,
@@ -24,9 +24,9 @@ from foldshell.figures.fields import (
     membrane_force_coefficients,
     principal_forces,
 )
-from foldshell.figures.flow_pictures import utilization_isolines
-from foldshell.figures.force_lines import split_lines
-from foldshell.figures.state import DesignState
+from foldshell.results.isolines import utilization_isolines
+from foldshell.results.principal_stress_lines import split_lines
+from foldshell.results.state import DesignState
 from foldshell.shell.mesh import edge_polyline_nodes
 
 
@@ -87,11 +87,11 @@ def write_design_vtu(path: str | Path, state: DesignState, elasticity: Elasticit
     write_vtu(path, state.cells.nodes, state.triangles, point_fields(state), fields)
 
 
-def write_lines_vtu(path: str | Path, subject: Subject) -> None:
-    """Write design_lines.vtu: force lines and utilization isolines as two-point cells.
+def write_lines_vtu(path: str | Path, subject: DesignView) -> None:
+    """Write design_lines.vtu: principal stress lines and utilization isolines as two-point cells.
 
     Cell fields: kind (1 and 2: trajectories of n1 and n2; 3: isoline), force [kN/m] (tension
-    positive, nan on isolines), utilization [-] (nan on force lines).
+    positive, nan on isolines), utilization [-] (nan on principal stress lines).
     """
     parts = [*_force_parts(subject), *_isoline_parts(subject)]
     segments = np.concatenate([np.empty((0, 2, 3)), *(part[0] for part in parts)])
@@ -101,18 +101,18 @@ def write_lines_vtu(path: str | Path, subject: Subject) -> None:
     write_vtu(path, segments.reshape(-1, 3), cells, {}, data)
 
 
-def _force_parts(subject: Subject) -> list[tuple[np.ndarray, np.ndarray]]:
+def _force_parts(subject: DesignView) -> list[tuple[np.ndarray, np.ndarray]]:
     """Return segments (S, 2, 3) and rows kind, force, utilization (3, S) of each family."""
     parts = []
     for family in (0, 1) if subject.state.usable else ():
-        lines = [line for line in subject.force_lines[1] if line.family == family]
+        lines = [line for line in subject.principal_stress_lines[1] if line.family == family]
         segments, force = split_lines(lines)
         kind = np.full(len(force), family + 1.0)
         parts.append((segments, np.stack([kind, force, np.full(len(force), np.nan)])))
     return parts
 
 
-def _isoline_parts(subject: Subject) -> list[tuple[np.ndarray, np.ndarray]]:
+def _isoline_parts(subject: DesignView) -> list[tuple[np.ndarray, np.ndarray]]:
     if subject.state.utilization is None:
         return []
     return [

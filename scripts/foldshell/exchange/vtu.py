@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from foldshell.study.files import atomic_path
+from foldshell.files.whole import atomic_path
 
 VTK_CELLS = {2: 3, 3: 5}
 """VTK's numbers of line and triangle, by nodes of a cell."""

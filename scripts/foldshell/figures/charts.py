@@ -19,7 +19,7 @@ from foldshell.figures.study_data import (
     pair_supports,
     sort_into_columns,
 )
-from foldshell.study.files import atomic_path
+from foldshell.files.whole import atomic_path
 
 COLOURS = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#000000")
 STYLES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)))

@@ -7,11 +7,12 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 from foldshell.figures.camera import fit_camera
-from foldshell.figures.colours import MISSING, ColourScale, make_scale
-from foldshell.figures.drafts import Subject, crease_lines, support_marks
+from foldshell.figures.figure_specs import crease_lines, support_marks
 from foldshell.figures.layout import INK, SOFT, Caption, draw_bar, fit_font, load_font
 from foldshell.figures.render import render_scenes
 from foldshell.figures.scene import Scene
+from foldshell.results.colour_scales import MISSING, ColourScale, make_scale
+from foldshell.results.design_view import DesignView
 
 TILE = (400, 270)
 WORDS = 58
@@ -32,7 +33,7 @@ class Tile:
     utilization: np.ndarray | None
 
 
-def make_tile(subject: Subject) -> Tile:
+def make_tile(subject: DesignView) -> Tile:
     """Return what the sheet needs of a design, so that the rest can be forgotten."""
     state = subject.state
     lines, _ = crease_lines(subject, state.cells.nodes)

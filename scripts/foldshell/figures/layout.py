@@ -9,8 +9,8 @@ from pathlib import Path
 import numpy as np
 from PIL import Image, ImageDraw, ImageFont
 
-from foldshell.figures.colours import ABOVE, ColourScale, find_ticks, format_tick
-from foldshell.study.files import atomic_path
+from foldshell.files.whole import atomic_path
+from foldshell.results.colour_scales import ABOVE, ColourScale, find_ticks, format_tick
 
 INK = (20, 20, 20)
 SOFT = (90, 90, 90)

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from foldshell.figures.charts import LIMIT_COLOUR, STYLE, draw_words
 from foldshell.figures.study_data import SURFACES, StudyDesign
-from foldshell.study.correlation import rank_correlation
+from foldshell.results.correlation import rank_correlation
 
 BINS = 10
 """Groups of equally many panels whose median is drawn."""

@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
-from foldshell.figures.fields import cell_area
-from foldshell.figures.state import DesignState, read_state
-from foldshell.study.errors import InputError
-from foldshell.study.stages import FINAL_STATE
+from foldshell.files.errors import InputError
+from foldshell.results.fields import cell_area
+from foldshell.results.state import DesignState, read_state
+from foldshell.settings.stages import FINAL_STATE
 
 NUMBERS = ("span_m", "height_m", "zigzag", "strip", "volume_per_area_m", "utilization_mean",
            "displacement_vertical_max_m")  # fmt: skip

@@ -5,9 +5,9 @@ from pathlib import Path
 
 import numpy as np
 
+from foldshell.files.whole import atomic_path
 from foldshell.pattern.grid import Grid
 from foldshell.pattern.sheet import Sheet
-from foldshell.study.files import atomic_path
 
 COLOURS = ("#d9c7a0", "#b7a27a")  # panels by parity of their column
 SIZE = (960, 720)

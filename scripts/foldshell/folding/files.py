@@ -4,10 +4,10 @@ from pathlib import Path
 
 import numpy as np
 
+from foldshell.files.whole import atomic_path, write_arrays, write_json
 from foldshell.folding.fold import FoldResult
 from foldshell.folding.quality import measure_planarity, measure_strain
 from foldshell.pattern.sheet import Sheet
-from foldshell.study.files import atomic_path, write_arrays, write_json
 
 
 def describe_quality(result: FoldResult) -> dict[str, float | int | str]:

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from foldshell.folding.developable_pattern import fold_exactly, fold_rigidly
 from foldshell.folding.isometric import fold_isometrically
 from foldshell.folding.problem import attracted_vertices
 from foldshell.folding.quality import Quality, measure_quality, measure_start_coverage
@@ -13,7 +14,6 @@ from foldshell.folding.settings import MODES, FoldSettings
 from foldshell.folding.shape import Shape
 from foldshell.folding.soft import fold_softly
 from foldshell.folding.terms import Target, measure_distances
-from foldshell.folding.true_pattern import fold_exactly, fold_rigidly
 from foldshell.pattern.sheet import Sheet
 
 

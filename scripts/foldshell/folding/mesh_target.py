@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from foldshell.study.errors import InputError
+from foldshell.files.errors import InputError
 
 if TYPE_CHECKING:
     import pyvista

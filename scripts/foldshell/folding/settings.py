@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from typing import Any
 
+from foldshell.files.errors import InputError
 from foldshell.folding.exact import ExactWeights
 from foldshell.folding.problem import Weights
-from foldshell.study.errors import InputError
 
 MODES = ("paper", "isometric", "exact", "rigid")
 # 2e-3 is what rigid domes are to reach; isometric saddles come nearer, or something went wrong.

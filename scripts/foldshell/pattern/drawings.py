@@ -5,8 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
+from foldshell.files.whole import atomic_path
 from foldshell.pattern.grid import Grid, find_outline
-from foldshell.study.files import atomic_path
 
 # Preset: layer -> (AutoCAD colour index, SVG colour). The paper draws mountains green and
 # valleys red, FOLD tools mountains red and valleys blue.

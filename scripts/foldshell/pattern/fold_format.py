@@ -10,11 +10,11 @@ from typing import Any
 
 import numpy as np
 
+from foldshell.files.errors import InputError
+from foldshell.files.whole import write_json
 from foldshell.pattern.angles import measure_folds
 from foldshell.pattern.grid import Grid, build_grid, remove_creases
 from foldshell.pattern.sheet import Frame, Sheet
-from foldshell.study.errors import InputError
-from foldshell.study.files import write_json
 
 REST_TITLE, UNROLLED_TITLE = "rest", "rest, unrolled"
 

@@ -4,8 +4,8 @@ import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
-from foldshell.figures.colours import find_ticks, format_tick
 from foldshell.report.markup import escape
+from foldshell.results.colour_scales import find_ticks, format_tick
 
 WIDTH, HEIGHT, LEFT, RIGHT, TOP, GAP = 620, 128, 58, 100, 22, 14
 INK, SOFT, CURVE, LIMIT = "#1c1c1c", "#d4d4d4", "#00518a", "#be0028"

@@ -28,7 +28,7 @@ SCRIPTS = ("data.js", "renderer.js", "camera.js", "viewer.js")
 SIZE_MAX = 1_400_000
 """Bytes: a browser shows larger pages blank inside Snakemake's report (2 MB as a data URI)."""
 PICTURE_WIDTH = 560
-SHOWN = {"force_lines": "force lines", "isolines": "utilization isolines",
+SHOWN = {"principal_stress_lines": "principal stress lines", "isolines": "utilization isolines",
          "buckling": "buckling mode", "strain": "strain of the folding"}  # fmt: skip
 """Pictures that the 3D view does not replace."""
 FILES = {
@@ -36,7 +36,7 @@ FILES = {
     "sizing/history.xlsx": "history of the sizing loop",
     "crosscheck/comparison.xlsx": "cross-check, both codes",
     "design.vtu": "final fields for ParaView",
-    "design_lines.vtu": "force lines and isolines for ParaView",
+    "design_lines.vtu": "principal stress lines and isolines for ParaView",
     "pattern/crease_pattern.dxf": "crease pattern, DXF",
     "pattern/crease_pattern.fold": "crease pattern, FOLD",
     "folded/folded.vtu": "folded sheet",
@@ -104,7 +104,7 @@ def _write_tables(files: DesignFiles, utilization_max: float) -> str:
         ("History", write_history(files.history, utilization_max)),
         ("Final state", write_headlines(files)),
         ("Cross-check by the independent code", write_crosscheck(files.comparison)),
-        ("Mesh error", write_mesh_error(files.mesh_study)),
+        ("Mesh error", write_mesh_error(files.mesh_convergence)),
         ("Thickness classes", write_classes(files.classes)),
         ("Folding", write_folding(files.quality)),
     ]

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from foldshell.figures.drafts import count_analyses
+from foldshell.files.whole import read_json
 from foldshell.report.history_chart import Series, draw_history
 from foldshell.report.markup import Cell, escape, format_number, make_table
-from foldshell.study.files import read_json
+from foldshell.results.design_view import count_analyses
 from foldshell.workbook.styles import GOOD_VERDICTS
 
 FOLDING = {
@@ -52,14 +52,14 @@ class DesignFiles:
     final: Mapping[str, Any]
     quality: Mapping[str, Any]
     classes: Mapping[str, Any]
-    mesh_study: Mapping[str, Any]
+    mesh_convergence: Mapping[str, Any]
     comparison: Mapping[str, Any]
     history: Sequence[Mapping[str, str]]
 
 
 def read_files(design: Mapping[str, Any], paths: Mapping[str, str | Path]) -> DesignFiles:
-    """Read final, quality, classes, mesh_study, comparison (JSON) and history (CSV)."""
-    names = ("final", "quality", "classes", "mesh_study", "comparison")
+    """Read final, quality, classes, mesh_convergence, comparison (JSON) and history (CSV)."""
+    names = ("final", "quality", "classes", "mesh_convergence", "comparison")
     with Path(paths["history"]).open(encoding="utf-8", newline="") as stream:
         history = list(csv.DictReader(stream))
     return DesignFiles(design, *(read_json(paths[name]) for name in names), history)

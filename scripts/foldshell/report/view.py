@@ -5,17 +5,18 @@ from typing import Any
 
 import numpy as np
 
-from foldshell.figures.colours import (
+from foldshell.results.colour_scales import (
+    RATIO_RANGE_MIN,
     ColourScale,
+    exaggeration,
     find_ticks,
     format_tick,
     make_limit_scale,
     make_scale,
 )
-from foldshell.figures.drafts import Subject
-from foldshell.figures.fields import choose_buckling, choose_deflection
-from foldshell.figures.pictures import RATIO_RANGE_MIN, exaggeration
-from foldshell.figures.state import DesignState
+from foldshell.results.design_view import DesignView
+from foldshell.results.fields import choose_buckling, choose_deflection
+from foldshell.results.state import DesignState
 from foldshell.shell.mesh import edge_polyline_nodes
 
 COLOURS = 64
@@ -34,7 +35,7 @@ class View:
     facts: dict[str, Any]
 
 
-def make_view(subject: Subject) -> View:
+def make_view(subject: DesignView) -> View:
     """Return the view of a design; fields and shapes that its state lacks are left out.
 
     Arrays: nodes (N, 3) m; triangles (C, 3); panel (C,); mountain, valley, flat, border (K, n)
@@ -77,7 +78,7 @@ class _Grid:
         return values[: len(self.nodes)]
 
 
-def _make_grid(subject: Subject) -> _Grid:
+def _make_grid(subject: DesignView) -> _Grid:
     """Return the result cells, or the facets alone of a sheet of very many.
 
     The first nodes of a mesh are the sheet's vertices, and cells follow facet by facet.
@@ -118,7 +119,7 @@ def _pad(state: DesignState, values: np.ndarray) -> np.ndarray:
     return np.append(values, np.full(len(state.strip_thickness), np.nan))
 
 
-def _fields(subject: Subject, grid: _Grid) -> dict[str, tuple]:
+def _fields(subject: DesignView, grid: _Grid) -> dict[str, tuple]:
     """Return words with unit, values at panels, triangles or nodes, scale, options by name."""
     state = subject.state
     thickness = 1e3 * state.panel_thickness
@@ -140,7 +141,7 @@ def _fields(subject: Subject, grid: _Grid) -> dict[str, tuple]:
     return fields
 
 
-def _utilization_fields(subject: Subject, grid: _Grid) -> dict[str, tuple]:
+def _utilization_fields(subject: DesignView, grid: _Grid) -> dict[str, tuple]:
     state, limit = subject.state, subject.limits.utilization_max
     combinations = f"{state.strength[0]} to {state.strength[-1]}"
     found = {}
@@ -186,7 +187,7 @@ def _describe_scale(scale: ColourScale) -> dict[str, Any]:
     }
 
 
-def _shapes(subject: Subject, grid: _Grid) -> list[tuple[str, str, np.ndarray, float]]:
+def _shapes(subject: DesignView, grid: _Grid) -> list[tuple[str, str, np.ndarray, float]]:
     """Return name, words, translations (N, 3) m and their factor in the middle of the slider."""
     state, shapes = subject.state, []
     if state.usable:

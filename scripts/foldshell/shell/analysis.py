@@ -5,6 +5,8 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
+from foldshell.loads.cases import Loads, combination_matrix, surface_loads
+from foldshell.settings.material import Material
 from foldshell.shell.assembly import (
     LowerPattern,
     assemble_stiffness,
@@ -14,10 +16,9 @@ from foldshell.shell.assembly import (
 from foldshell.shell.buckling import BucklingResult, find_buckling_factors
 from foldshell.shell.geometric import apply_geometric, make_geometric_products
 from foldshell.shell.linear_solver import Factor, NotPositiveDefiniteError, factorise
-from foldshell.shell.loads import Loads, combination_matrix, nodal_forces, surface_loads
-from foldshell.shell.material import Material
 from foldshell.shell.mesh import ShellMesh
 from foldshell.shell.near_null import find_near_null_vector, is_singular
+from foldshell.shell.nodal_loads import nodal_forces
 from foldshell.shell.second_order import SecondOrderResult, solve_second_order
 from foldshell.shell.stiffness import ShellOperators, build_operators
 from foldshell.shell.stress import membrane_forces

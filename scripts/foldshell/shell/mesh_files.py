@@ -5,11 +5,11 @@ from pathlib import Path
 
 import numpy as np
 
+from foldshell.files.whole import atomic_path, read_arrays, write_arrays
 from foldshell.shell.edge_beams import EdgeBeam, facet_edges, free_edges, hang_strips
 from foldshell.shell.mesh import ShellMesh, build_mesh, edge_polyline_nodes
 from foldshell.shell.reference import lagrange_basis, lattice_points
 from foldshell.shell.supports import supported_pairs
-from foldshell.study.files import atomic_path, read_arrays, write_arrays
 
 
 def mesh_folded_sheet(

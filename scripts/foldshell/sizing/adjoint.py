@@ -8,11 +8,11 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from foldshell.settings.material import Material
 from foldshell.shell.analysis import AnalysisResult, ShellModel
 from foldshell.shell.assembly import assemble_stiffness
 from foldshell.shell.geometric import geometric_tables
 from foldshell.shell.linear_solver import Factor, factorise
-from foldshell.shell.material import Material
 from foldshell.shell.reference import reference_triangle
 from foldshell.shell.stress import StressResultants, internal_forces, stress_resultants
 

@@ -4,15 +4,15 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from foldshell.files.errors import InputError
+from foldshell.files.whole import hash_data, hash_file, read_arrays
+from foldshell.loads.cases import Loads
+from foldshell.settings.material import Material
 from foldshell.shell.analysis import AnalysisOptions, build_model
-from foldshell.shell.loads import Loads
-from foldshell.shell.material import Material
 from foldshell.shell.mesh_files import mesh_from_arrays
 from foldshell.sizing.criteria import StopRule
 from foldshell.sizing.iteration import AnalysisCase, LoadPlan
 from foldshell.sizing.step import NEED_CONSTRAINTS
-from foldshell.study.errors import InputError
-from foldshell.study.files import hash_data, hash_file, read_arrays
 
 _LAST: dict[tuple[str, str], AnalysisCase] = {}
 """The case that `open_case` built last, by the hashes of mesh and settings."""

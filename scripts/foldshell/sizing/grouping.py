@@ -9,7 +9,7 @@ import numpy as np
 from foldshell.shell.results import panel_area
 from foldshell.sizing.classes import ThicknessClasses, group_thicknesses
 from foldshell.sizing.iteration import AnalysisCase, IterationTask
-from foldshell.workbook.panels import round_thickness
+from foldshell.sizing.rounding import round_thickness
 
 CRITERIA = ("utilization_max", "displacement_vertical_m", "edge_beam_utilization")
 """What a grouped design has to keep; changes of volume mean nothing to it."""

@@ -7,16 +7,18 @@ from typing import Any
 
 import numpy as np
 
-from foldshell.shell.analysis import AnalysisOptions, AnalysisResult, ShellModel, analyse_shell
-from foldshell.shell.loads import Loads, combination_matrix
-from foldshell.shell.material import Material
-from foldshell.shell.results import (
+from foldshell.checks.utilization import (
     Utilization,
     area_percentile,
     compute_utilization,
+    panel_utilization,
+)
+from foldshell.loads.cases import Loads, combination_matrix
+from foldshell.settings.material import Material
+from foldshell.shell.analysis import AnalysisOptions, AnalysisResult, ShellModel, analyse_shell
+from foldshell.shell.results import (
     largest_downward,
     panel_area,
-    panel_utilization,
     panels_beside_strips,
     reaction_imbalance,
     support_reactions,

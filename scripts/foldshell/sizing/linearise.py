@@ -9,9 +9,10 @@ Source: Haftka & Gurdal (1992) Elements of Structural Optimization, sections 7.2
 
 import numpy as np
 
+from foldshell.checks.utilization import Utilization, panel_utilization
+from foldshell.settings.material import Material
 from foldshell.shell.analysis import AnalysisResult, ShellModel
-from foldshell.shell.material import Material
-from foldshell.shell.results import Utilization, panel_area, panel_utilization, translations
+from foldshell.shell.results import panel_area, translations
 from foldshell.sizing.adjoint import AdjointModel, open_adjoint
 from foldshell.sizing.constraints import Constraints
 from foldshell.sizing.criteria import StopRule

@@ -8,8 +8,8 @@ import numpy as np
 
 from foldshell.sizing.case import AnalysisCase
 from foldshell.sizing.iteration import IterationTask
+from foldshell.sizing.rounding import round_thickness
 from foldshell.sizing.step import take_step
-from foldshell.workbook.panels import round_thickness
 
 
 @dataclass(frozen=True)

@@ -8,6 +8,7 @@ import numpy as np
 
 from foldshell.sizing.constraints import Constraints, read_constraints
 from foldshell.sizing.optimality import optimality
+from foldshell.sizing.rounding import round_thickness
 from foldshell.sizing.rules import (
     SizingLimits,
     SizingState,
@@ -16,7 +17,6 @@ from foldshell.sizing.rules import (
     start_state,
     thicken_all,
 )
-from foldshell.workbook.panels import round_thickness
 
 RULES: dict[str, Callable[[SizingState, SizingLimits], SizingState]] = {
     "dead_band": dead_band,

@@ -2,9 +2,10 @@
 
 import numpy as np
 
-from foldshell.shell.material import CRITERIA
+from foldshell.checks.strength import CRITERIA
+from foldshell.checks.utilization import Utilization
 from foldshell.shell.reference import orthonormal_basis
-from foldshell.shell.results import Utilization, panel_area
+from foldshell.shell.results import panel_area
 from foldshell.shell.stress import sample_points, surface_stresses
 from foldshell.sizing.adjoint import AdjointModel
 

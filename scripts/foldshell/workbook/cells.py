@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import Any
 from xml.parsers import expat
 
-from foldshell.study.errors import InputError
+from foldshell.files.errors import InputError
 from foldshell.workbook.package import Package
 
 MOST_ROWS, MOST_COLUMNS = 20_000, 64

@@ -12,8 +12,8 @@ from pathlib import Path
 from xml.etree import ElementTree
 from zlib import error as ZlibError
 
-from foldshell.study.errors import InputError
-from foldshell.study.files import read_small_file
+from foldshell.files.errors import InputError
+from foldshell.files.whole import read_small_file
 
 LARGEST_FILE = 10_000_000
 LARGEST_PART = 6_000_000

@@ -7,7 +7,6 @@ import numpy.typing as npt
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
-DIGITS = 12
 
 
 @dataclass(frozen=True)
@@ -42,12 +41,3 @@ def make_panel_grid(zigzag: int, strip: int) -> PanelGrid:
     """Number the (zigzag - 1)(strip - 1) panels between counts of polylines."""
     rows, columns = np.divmod(np.arange((zigzag - 1) * (strip - 1)), strip - 1)
     return PanelGrid(rows, columns)
-
-
-def round_thickness(thickness: npt.ArrayLike) -> FloatArray:
-    """Round to 12 significant digits, which survive workbooks and spreadsheets unchanged.
-
-    Writers of .xlsx print 16 digits and spreadsheets keep 15, both fewer than a double may need.
-    """
-    values = np.asarray(thickness, dtype=float)
-    return np.char.mod(f"%.{DIGITS}g", values).astype(float).reshape(values.shape)

@@ -5,11 +5,12 @@ from pathlib import Path
 
 import numpy as np
 
-from foldshell.study.errors import InputError
-from foldshell.study.nearest import hint_nearest
+from foldshell.files.errors import InputError
+from foldshell.settings.nearest import hint_nearest
+from foldshell.sizing.rounding import round_thickness
 from foldshell.workbook.cells import Cell, read_cells
 from foldshell.workbook.package import open_package
-from foldshell.workbook.panels import FloatArray, PanelGrid, round_thickness
+from foldshell.workbook.panels import FloatArray, PanelGrid
 
 SHEET = "thickness"
 UNITS = {"panel": "-", "zigzag": "-", "strip": "-", "thickness": "m"}

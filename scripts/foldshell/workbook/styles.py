@@ -8,7 +8,7 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from foldshell.study.files import atomic_path
+from foldshell.files.whole import atomic_path
 
 if TYPE_CHECKING:
     import xlsxwriter

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from foldshell.study.files import atomic_path
+from foldshell.files.whole import atomic_path
 from foldshell.workbook.styles import Styles, split_unit, write_header, write_value
 
 Row = Mapping[str, Any]

@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from foldshell.workbook.panels import FloatArray, ThicknessTable, round_thickness
+from foldshell.sizing.rounding import round_thickness
+from foldshell.workbook.panels import FloatArray, ThicknessTable
 from foldshell.workbook.styles import (
     Styles,
     add_sheet,

@@ -3,9 +3,9 @@
 import meshio
 import numpy as np
 
+from figure_cases import make_state
 from foldshell.exchange.design_vtu import write_design_vtu, write_lines_vtu
-from foldshell.figures.drafts import Elasticity, Limits, make_subject
-from unit.figures.figure_cases import make_state
+from foldshell.results.design_view import Elasticity, Limits, make_design_view
 
 ELASTICITY = Elasticity(31e6, 0.2)
 
@@ -79,7 +79,7 @@ def test_lines_carry_force_and_level(tmp_path):
         folded=False,
         move=lambda x: np.column_stack([1e-3 * x[:, 0], -1e-3 * x[:, 1], 0 * x[:, 0]]),
     )
-    subject = make_subject(state, 5.0, Limits(), ELASTICITY)
+    subject = make_design_view(state, 5.0, Limits(), ELASTICITY)
     write_lines_vtu(tmp_path / "lines.vtu", subject)
     points, cells, fields, _ = read(tmp_path / "lines.vtu")
     step = points[cells[:, 1]] - points[cells[:, 0]]
@@ -95,6 +95,6 @@ def test_lines_carry_force_and_level(tmp_path):
 def test_unstable_design_has_no_lines(tmp_path):
     """The file is there, with no cell in it."""
     state = make_state(tmp_path, utilization=None, move=lambda x: np.nan * x)
-    subject = make_subject(state, 5.0, Limits(), ELASTICITY)
+    subject = make_design_view(state, 5.0, Limits(), ELASTICITY)
     write_lines_vtu(tmp_path / "lines.vtu", subject)
     assert 'NumberOfCells="0"' in (tmp_path / "lines.vtu").read_text()

@@ -27,8 +27,8 @@ from foldshell.figures.study_data import (
     utilization_edges,
     utilization_shares,
 )
-from foldshell.study.correlation import rank_correlation
-from foldshell.study.errors import InputError
+from foldshell.files.errors import InputError
+from foldshell.results.correlation import rank_correlation
 
 
 def design(surface="arch", support="strip", height=10, strip=16, state="converged", **number):

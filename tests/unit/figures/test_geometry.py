@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
+from figure_cases import make_state
 from foldshell.figures.camera import fit_camera, look_at
-from foldshell.figures.creases import cut_dashes, find_creases
-from foldshell.figures.isolines import find_isolines, find_region_border, panel_node_values
 from foldshell.pattern.grid import build_grid
-from unit.figures.figure_cases import make_state
+from foldshell.results.creases import cut_dashes, find_creases
+from foldshell.results.isolines import find_isolines, find_region_border, panel_node_values
 
 
 @pytest.mark.parametrize("aspect", [0.6, 1.9])

@@ -6,21 +6,21 @@ from functools import partial
 import numpy as np
 import pytest
 
+from figure_cases import make_state
 from foldshell.figures import render
 from foldshell.figures.camera import fit_camera
-from foldshell.figures.drafts import Elasticity, Limits, make_subject
 from foldshell.figures.painter import paint_scenes
-from foldshell.figures.pictures import draft_planarity, draft_thickness
+from foldshell.figures.pictures import specify_planarity, specify_thickness
 from foldshell.figures.scene import Lines, Scene
-from unit.figures.figure_cases import make_state
+from foldshell.results.design_view import Elasticity, Limits, make_design_view
 
 SIZE = (480, 330)
 
 
-def scene_of(folder, draft=draft_thickness):
+def scene_of(folder, spec=specify_thickness):
     """Return the scene of a small folded sheet."""
-    subject = make_subject(make_state(folder), 5.0, Limits(), Elasticity(31e6, 0.2))
-    return draft(subject).scene
+    subject = make_design_view(make_state(folder), 5.0, Limits(), Elasticity(31e6, 0.2))
+    return spec(subject).scene
 
 
 @pytest.mark.skipif(not render.has_opengl(), reason="no OpenGL to compare with")
@@ -78,6 +78,6 @@ def test_painter_is_taken_without_a_graphics_library(tmp_path, monkeypatch):
         raise OSError(name)
 
     monkeypatch.setattr(ctypes, "CDLL", refuse)
-    scene = scene_of(tmp_path, draft_planarity)
+    scene = scene_of(tmp_path, specify_planarity)
     assert render.render_scenes([scene], [fit_camera(scene.points, 1.0)], (80, 80)) == ["image"]
     assert len(calls) == 1

@@ -4,22 +4,26 @@ import numpy as np
 import pytest
 from PIL import Image
 
+from figure_cases import make_state
 from foldshell.figures.camera import fit_camera
-from foldshell.figures.colours import ABOVE, COMPRESSION, TENSION
-from foldshell.figures.drafts import Elasticity, Limits, describe_verdict, make_subject
-from foldshell.figures.flow_pictures import draft_buckling, draft_force_lines, draft_isolines
+from foldshell.figures.figure_specs import describe_verdict
 from foldshell.figures.layout import Caption, compose, load_font, save_png, view_size, wrap
+from foldshell.figures.load_path_figures import (
+    specify_buckling,
+    specify_isolines,
+    specify_principal_stress_lines,
+)
 from foldshell.figures.pictures import (
-    draft_displacement,
-    draft_strain,
-    draft_thickness,
-    draft_utilization,
     draw_design,
-    exaggeration,
+    specify_displacement,
+    specify_strain,
+    specify_thickness,
+    specify_utilization,
 )
 from foldshell.figures.render import render_scenes
 from foldshell.figures.scene import Scene
-from unit.figures.figure_cases import make_state
+from foldshell.results.colour_scales import ABOVE, COMPRESSION, TENSION, exaggeration
+from foldshell.results.design_view import Elasticity, Limits, make_design_view
 
 SIZE = (640, 480)
 LIMITS, ELASTICITY = Limits(1.0, 240.0), Elasticity(31e6, 0.2)
@@ -27,7 +31,7 @@ LIMITS, ELASTICITY = Limits(1.0, 240.0), Elasticity(31e6, 0.2)
 
 def subject_of(folder, **options):
     """Return a case as the subject of pictures."""
-    return make_subject(make_state(folder, **options), 5.0, LIMITS, ELASTICITY)
+    return make_design_view(make_state(folder, **options), 5.0, LIMITS, ELASTICITY)
 
 
 def share_near(image, colour, distance=30):
@@ -42,7 +46,7 @@ def test_each_picture_shows_its_own_field(tmp_path):
         subject_of(tmp_path),
         SIZE,
         ("thickness", "utilization", "displacement", "planarity", "strain",
-         "force_lines", "isolines", "buckling"),
+         "principal_stress_lines", "isolines", "buckling"),
     )  # fmt: skip
     top, bottom = round(0.165 * SIZE[1]), round(0.85 * SIZE[1])
     views = {name: np.asarray(picture)[top:bottom] for name, picture in pictures.items()}
@@ -57,7 +61,7 @@ def test_utilization_above_the_limit_is_red(tmp_path):
     found = {}
     for value in (0.9, 1.1):
         (tmp_path / str(value)).mkdir()
-        scene = draft_utilization(subject_of(tmp_path / str(value), utilization=value)).scene
+        scene = specify_utilization(subject_of(tmp_path / str(value), utilization=value)).scene
         camera = fit_camera(scene.points, 4 / 3)
         found[value] = share_near(render_scenes([scene], [camera], (400, 300))[0], ABOVE, 60)
     assert found[0.9] == 0
@@ -99,15 +103,15 @@ def test_same_state_same_bytes(tmp_path):
 def test_displaced_shape_is_drawn_by_its_stated_factor(tmp_path):
     """w = -1e-3 x2: points of the scene are nodes plus factor times that, and the words say so."""
     subject = subject_of(tmp_path)
-    draft = draft_displacement(subject)
+    spec = specify_displacement(subject)
     nodes = subject.state.cells.nodes
     drop = 1e-3 * nodes[:, 0] ** 2
     factor = exaggeration(np.column_stack([drop, 0 * drop, 0 * drop]), 5.0)
     assert 0.03 * 5 < factor * drop.max() < 0.12 * 5
-    assert np.allclose(draft.scene.points[:, 2], nodes[:, 2] - factor * drop, atol=1e-12)
-    assert f"D2: at most {1e3 * drop.max():.1f} mm down" in draft.caption.lines[0]
-    assert f"drawn {factor:g} times" in draft.caption.lines[0]
-    assert "limit 20.8 mm" in draft.caption.lines[0]
+    assert np.allclose(spec.scene.points[:, 2], nodes[:, 2] - factor * drop, atol=1e-12)
+    assert f"D2: at most {1e3 * drop.max():.1f} mm down" in spec.caption.lines[0]
+    assert f"drawn {factor:g} times" in spec.caption.lines[0]
+    assert "limit 20.8 mm" in spec.caption.lines[0]
 
 
 def test_tension_and_compression_have_their_colours(tmp_path):
@@ -117,8 +121,8 @@ def test_tension_and_compression_have_their_colours(tmp_path):
         folded=False,
         move=lambda x: np.column_stack([1e-3 * x[:, 0], -1e-3 * x[:, 1], 0 * x[:, 0]]),
     )
-    lines = {line.colour: 0 for line in draft_force_lines(subject).scene.lines}
-    for line in draft_force_lines(subject).scene.lines:
+    lines = {line.colour: 0 for line in specify_principal_stress_lines(subject).scene.lines}
+    for line in specify_principal_stress_lines(subject).scene.lines:
         lines[line.colour] += len(line.points)
         if line.colour in (TENSION, COMPRESSION) and len(line.points):
             step = np.abs(line.points[:, 1] - line.points[:, 0])
@@ -130,8 +134,8 @@ def test_tension_and_compression_have_their_colours(tmp_path):
 
 def test_sheet_that_carries_by_bending_has_no_force_lines(tmp_path):
     """A flat sheet that only moves down has no membrane force; the picture says so."""
-    draft = draft_force_lines(subject_of(tmp_path, folded=False))
-    assert "bending alone" in draft.caption.lines[0]
+    spec = specify_principal_stress_lines(subject_of(tmp_path, folded=False))
+    assert "bending alone" in spec.caption.lines[0]
 
 
 def test_design_without_results_says_what_is_missing(tmp_path):
@@ -140,13 +144,13 @@ def test_design_without_results_says_what_is_missing(tmp_path):
         tmp_path, utilization=None, move=lambda x: np.nan * x, verdict="unstable",
         reason="buckling factor 0.7 of S1 is below 1", buckling_factor={"S1": None},
     )  # fmt: skip
-    assert draft_utilization(subject).caption.lines[0] == "no utilization"
-    assert draft_displacement(subject).caption.lines[0] == "no displacement"
-    assert draft_isolines(subject).caption.lines[0] == "no utilization"
-    assert draft_buckling(subject).caption.lines[0] == "no buckling mode"
-    assert "no membrane forces" in draft_force_lines(subject).caption.lines[0]
-    for draft in (draft_thickness, draft_displacement):
-        assert draft(subject).caption.lines[-1] == (
+    assert specify_utilization(subject).caption.lines[0] == "no utilization"
+    assert specify_displacement(subject).caption.lines[0] == "no displacement"
+    assert specify_isolines(subject).caption.lines[0] == "no utilization"
+    assert specify_buckling(subject).caption.lines[0] == "no buckling mode"
+    assert "no membrane forces" in specify_principal_stress_lines(subject).caption.lines[0]
+    for spec in (specify_thickness, specify_displacement):
+        assert spec(subject).caption.lines[-1] == (
             "unstable after 4 analyses: buckling factor 0.7 of S1 is below 1"
         )
 
@@ -154,7 +158,7 @@ def test_design_without_results_says_what_is_missing(tmp_path):
 def test_buckling_mode_is_that_of_the_least_factor(tmp_path):
     """S2 has the least factor, 2.0; the mode is scaled to 1, zero at supported nodes."""
     subject = subject_of(tmp_path)
-    assert draft_buckling(subject).caption.lines[0].startswith("S2: buckling factor 2.00")
+    assert specify_buckling(subject).caption.lines[0].startswith("S2: buckling factor 2.00")
     mode = subject.state.buckling_mode("S2")
     assert np.linalg.norm(mode, axis=1).max() == pytest.approx(1)
     vertices = np.unique(subject.state.shell["support_pairs"])
@@ -190,9 +194,9 @@ def test_words_do_not_cover_the_view():
 def test_strain_stands_in_its_facet(tmp_path):
     """Strain rises from facet to facet; the cells of a facet have its colour, others have not."""
     subject = subject_of(tmp_path)
-    draft = draft_strain(subject)
-    scale = draft.caption.scale
+    spec = specify_strain(subject)
+    scale = spec.caption.scale
     facet = np.repeat(subject.state.mesh.facet, subject.state.cells.order**2)
     expected = scale.colour(100 * np.linspace(0, 0.02, 40))[facet]
-    assert np.array_equal(draft.scene.colours, expected)
+    assert np.array_equal(spec.scene.colours, expected)
     assert scale.high == pytest.approx(2.0)

@@ -2,8 +2,8 @@
 
 import pytest
 
+from foldshell.files.errors import InputError
 from foldshell.folding.settings import FoldSettings, read_settings
-from foldshell.study.errors import InputError
 
 
 def test_defaults_and_overrides():

@@ -4,12 +4,12 @@ import numpy as np
 import pytest
 import pyvista
 
+from foldshell.files.errors import InputError
 from foldshell.folding.fold import fold_sheet
 from foldshell.folding.quadric import make_quadric
 from foldshell.folding.settings import FoldSettings
 from foldshell.folding.targets import make_target
 from foldshell.pattern.design import design_sheet
-from foldshell.study.errors import InputError
 
 SHAPES = {
     "bumps.stl": lambda x, y: (

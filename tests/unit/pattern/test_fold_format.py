@@ -6,12 +6,12 @@ import math
 import numpy as np
 import pytest
 
+from foldshell.files.errors import InputError
 from foldshell.pattern.design import design_sheet
 from foldshell.pattern.fold_format import describe_sheet, read_fold, write_fold
 from foldshell.pattern.grid import find_hinges
 from foldshell.pattern.miura import Miura
 from foldshell.pattern.sheet import make_miura_sheet
-from foldshell.study.errors import InputError
 
 
 @pytest.fixture

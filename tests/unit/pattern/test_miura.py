@@ -5,6 +5,13 @@ import math
 import numpy as np
 import pytest
 
+from foldshell.kinematics.reverse_fold import (
+    fold_by_rules,
+    fold_unit,
+    largest_travel,
+    make_travel,
+    travel_at,
+)
 from foldshell.pattern.angles import (
     developability_residual,
     flat_foldability_residual,
@@ -18,13 +25,6 @@ from foldshell.pattern.miura import (
     poissons_ratio,
     rest_fold_angle,
     size_miura,
-)
-from foldshell.pattern.reverse_fold import (
-    fold_by_rules,
-    fold_unit,
-    largest_travel,
-    make_travel,
-    travel_at,
 )
 
 PATTERNS = [

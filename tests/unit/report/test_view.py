@@ -3,13 +3,13 @@
 import numpy as np
 import pytest
 
-from foldshell.figures.drafts import Elasticity, Limits, make_subject
-from foldshell.figures.state import read_state
+from figure_cases import PANELS
 from foldshell.report import view
 from foldshell.report.arrays import pack_arrays, unpack_arrays
 from foldshell.report.view import make_view
-from unit.figures.figure_cases import PANELS
-from unit.report.report_cases import SETTINGS, write_files
+from foldshell.results.design_view import Elasticity, Limits, make_design_view
+from foldshell.results.state import read_state
+from report_cases import SETTINGS, write_files
 
 
 def view_of(folder, folded=True, **options):
@@ -17,7 +17,7 @@ def view_of(folder, folded=True, **options):
     paths, _ = write_files(folder, **options)
     files = [paths[name] for name in ("mesh", "folded", "arrays", "final")]
     state = read_state("case", *files, SETTINGS["combinations"], paths["class_arrays"])
-    return make_view(make_subject(state, 5.0, Limits(), Elasticity(31e6, 0.2), folded)), state
+    return make_view(make_design_view(state, 5.0, Limits(), Elasticity(31e6, 0.2), folded)), state
 
 
 def test_every_field_is_there(tmp_path):
@@ -81,7 +81,7 @@ def test_very_large_sheets_are_shown_by_facets(tmp_path, monkeypatch):
     monkeypatch.setattr(view, "CELLS_MAX", 10)
     cells = np.random.default_rng(5).permutation(8 * PANELS).reshape(-1, 4)
     state.final["utilization_cell"] = cells
-    coarse = make_view(make_subject(state, 5.0, Limits(), Elasticity(31e6, 0.2)))
+    coarse = make_view(make_design_view(state, 5.0, Limits(), Elasticity(31e6, 0.2)))
     assert np.array_equal(coarse.arrays["field_utilization"], cells.max(axis=1))
     assert len(coarse.arrays["triangles"]) == 2 * PANELS
     assert np.array_equal(coarse.arrays["nodes"], state.shell["vertices"])

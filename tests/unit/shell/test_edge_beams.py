@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from foldshell.folding.intersections import find_piercing
+from foldshell.loads.cases import Loads
+from foldshell.settings.material import Material
 from foldshell.shell.analysis import AnalysisOptions, analyse_shell, build_model
 from foldshell.shell.edge_beams import (
     EdgeBeam,
@@ -12,8 +14,6 @@ from foldshell.shell.edge_beams import (
     hang_strips,
     make_edge_beam,
 )
-from foldshell.shell.loads import Loads
-from foldshell.shell.material import Material
 from foldshell.shell.mesh import build_mesh
 from foldshell.shell.mesh_files import mesh_folded_sheet, mesh_from_arrays
 from foldshell.shell.results import (

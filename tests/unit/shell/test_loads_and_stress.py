@@ -6,25 +6,20 @@ import numpy as np
 import pytest
 from shell_cases import dense_stiffness, folded_strip, skewed_patch
 
-from foldshell.shell.analysis import AnalysisOptions, analyse_shell, build_model
-from foldshell.shell.loads import LOAD_CASES, Loads, combination_matrix, nodal_forces, surface_loads
-from foldshell.shell.material import (
+from foldshell.checks.strength import (
     CRITERIA,
-    Material,
-    age_material,
     principal_stresses,
     utilization_drucker_prager,
     utilization_rankine,
     utilization_von_mises,
 )
+from foldshell.checks.utilization import area_percentile, compute_utilization, panel_utilization
+from foldshell.loads.cases import LOAD_CASES, Loads, combination_matrix, surface_loads
+from foldshell.settings.material import Material, age_material
+from foldshell.shell.analysis import AnalysisOptions, analyse_shell, build_model
 from foldshell.shell.mesh import build_mesh
-from foldshell.shell.results import (
-    area_percentile,
-    compute_utilization,
-    panel_utilization,
-    reaction_imbalance,
-    support_reactions,
-)
+from foldshell.shell.nodal_loads import nodal_forces
+from foldshell.shell.results import reaction_imbalance, support_reactions
 from foldshell.shell.stiffness import build_operators
 from foldshell.shell.stress import (
     cell_points,

@@ -2,7 +2,7 @@
 
 import pytest
 
-from foldshell.shell.mesh_study import estimate_errors, find_largest_errors
+from foldshell.results.mesh_convergence import estimate_errors, find_largest_errors
 
 
 def test_errors_against_the_extrapolated_value_and_buckling_apart():

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from foldshell.shell.mesh_study import (
+from foldshell.results.mesh_convergence import (
     REFERENCE,
     SMOOTH_REFERENCE,
     choose_reference,

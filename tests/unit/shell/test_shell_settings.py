@@ -2,9 +2,9 @@
 
 import pytest
 
+from foldshell.settings.make import make_settings
+from foldshell.settings.stages import stage_parameters
 from foldshell.shell.analysis import AnalysisOptions
-from foldshell.study.settings import make_settings
-from foldshell.study.stages import stage_parameters
 
 
 def test_creep_divides_the_modulus_of_every_stage():

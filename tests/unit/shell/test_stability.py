@@ -6,6 +6,8 @@ import numpy as np
 import pytest
 from shell_cases import dense_stiffness, folded_strip, skewed_patch
 
+from foldshell.loads.cases import Loads
+from foldshell.settings.material import Material
 from foldshell.shell.analysis import AnalysisOptions, analyse_shell, build_model
 from foldshell.shell.assembly import assemble_stiffness, find_pattern, translation_dofs
 from foldshell.shell.buckling import find_buckling_factors
@@ -17,8 +19,6 @@ from foldshell.shell.linear_solver import (
     NotPositiveDefiniteError,
     factorise,
 )
-from foldshell.shell.loads import Loads
-from foldshell.shell.material import Material
 from foldshell.shell.mesh import build_mesh
 from foldshell.shell.results import reaction_imbalance, support_reactions
 from foldshell.shell.second_order import solve_second_order

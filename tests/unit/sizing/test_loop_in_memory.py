@@ -8,9 +8,9 @@ import pytest
 import analyse
 import resize
 import start
+from foldshell.files.whole import read_arrays
 from foldshell.sizing.case import open_case
 from foldshell.sizing.loop import run_loop
-from foldshell.study.files import read_arrays
 from sizing_case import SPAN, STRIP, ZIGZAG, stage, write_small_mesh
 
 FILES_ONLY = {"seconds", "edited", "workbook_sha256"}

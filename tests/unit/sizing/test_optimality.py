@@ -5,10 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from foldshell.checks.utilization import compute_utilization, panel_utilization
+from foldshell.loads.cases import combination_matrix
 from foldshell.shell.analysis import AnalysisOptions, analyse_shell, build_model
-from foldshell.shell.loads import combination_matrix
 from foldshell.shell.mesh_files import mesh_folded_sheet, mesh_from_arrays
-from foldshell.shell.results import compute_utilization, panel_utilization
 from foldshell.sizing import linearise
 from foldshell.sizing.adjoint import open_adjoint
 from foldshell.sizing.constraints import Constraints

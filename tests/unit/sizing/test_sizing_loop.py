@@ -5,8 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from foldshell.results.gather import remove_superseded
 from foldshell.sizing.criteria import IterationState, StopRule, judge_iteration
-from foldshell.sizing.gather import remove_superseded
 from foldshell.sizing.rules import (
     SizingLimits,
     SizingState,

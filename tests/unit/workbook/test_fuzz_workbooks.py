@@ -14,8 +14,8 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 from workbook_cases import GRID, LARGEST, LEAST, THICKNESS, write_case
 
-from foldshell.study.errors import InputError
-from foldshell.workbook.panels import round_thickness
+from foldshell.files.errors import InputError
+from foldshell.sizing.rounding import round_thickness
 from foldshell.workbook.read_thickness import read_thickness
 
 # openpyxl warns of dates far in the future that an edit has made.

@@ -21,7 +21,7 @@ from workbook_cases import (
     write_parts,
 )
 
-from foldshell.study.errors import InputError
+from foldshell.files.errors import InputError
 from foldshell.workbook.read_thickness import read_thickness
 
 OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 from workbook_cases import GRID, LARGEST, LEAST, THICKNESS, write_case
 
-from foldshell.study.errors import InputError
-from foldshell.workbook.panels import round_thickness
+from foldshell.files.errors import InputError
+from foldshell.sizing.rounding import round_thickness
 from foldshell.workbook.read_thickness import read_thickness
 
 PYTHON = "/usr/bin/python3"

@@ -15,8 +15,8 @@ from workbook_cases import (
     write_case,
 )
 
-from foldshell.study.errors import InputError
-from foldshell.workbook.panels import round_thickness
+from foldshell.files.errors import InputError
+from foldshell.sizing.rounding import round_thickness
 from foldshell.workbook.read_thickness import read_thickness
 
 

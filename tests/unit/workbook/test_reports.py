@@ -9,16 +9,12 @@ import numpy as np
 import openpyxl
 import pytest
 
-from foldshell.study.settings import make_settings
-from foldshell.study.stages import stage_parameters
-from foldshell.study.summary import SUMMARY_KEYS
+from foldshell.results.history import HISTORY_KEYS, make_history
+from foldshell.results.summary import SUMMARY_KEYS
+from foldshell.settings.make import make_settings
+from foldshell.settings.stages import stage_parameters
 from foldshell.workbook.design import DesignReport, flatten, write_design
-from foldshell.workbook.history import (
-    HISTORY_KEYS,
-    make_history,
-    write_history,
-    write_history_csv,
-)
+from foldshell.workbook.history import write_history, write_history_csv
 from foldshell.workbook.panels import make_panel_grid
 from foldshell.workbook.styles import split_unit
 from foldshell.workbook.summary import write_summary

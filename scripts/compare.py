@@ -1,0 +1,56 @@
+"""Rule compare: analyse the neutral model independently and compare with the primary code."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+
+from crosscheck.errors import CrosscheckError, report_errors
+from crosscheck.model import read_model
+from crosscheck.primary import read_primary, read_reason
+from crosscheck.reading import write_json
+from crosscheck.system import SHEAR_FACTOR
+from crosscheck.verdict import compare_codes, leave_out
+from crosscheck.workbook import write_comparison
+
+
+def main(
+    model_path: str | Path,
+    primary_path: str | Path,
+    json_path: str | Path,
+    workbook_path: str | Path,
+    *,
+    subdivisions: Sequence[int] = (1, 2),
+    tolerance: Mapping[str, float] | None = None,
+    stability: bool = True,
+    shear_factor: float = SHEAR_FACTOR,
+) -> None:
+    """Read model.json and primary.json; write comparison.json and comparison.xlsx.
+
+    `subdivisions` are the elements along a block side of each mesh, coarse to fine, of the first
+    comparison; where codes differ, a second one on finer meshes stands. `tolerance`
+    overrides relative tolerances by quantity; `stability` adds the buckling factors and values
+    of second order that the primary code gives. `shear_factor` 5/6 is the physical plate. A
+    mechanism has nothing to compare: `pass` is null, with the reason.
+    """
+    model, reason = read_model(model_path), read_reason(primary_path)
+    meshes = [int(m) for m in subdivisions]
+    if not meshes or any(m < 1 for m in meshes) or meshes != sorted(set(meshes)):
+        raise CrosscheckError(f"crosscheck.subdivisions: {meshes}: allowed are increasing, from 1")
+    if reason is None:
+        primary = read_primary(primary_path, model.compared_combinations)
+        how = (meshes, tolerance or {}, stability, shear_factor)
+        result = compare_codes(model, primary, *how)
+    else:
+        result = leave_out(None, reason)
+    write_comparison(workbook_path, model.design, result)
+    write_json(json_path, {"design": model.design, **result})
+
+
+if "snakemake" in globals():
+    with report_errors():
+        main(
+            snakemake.input.model,  # noqa: F821
+            snakemake.input.primary,  # noqa: F821
+            snakemake.output.comparison,  # noqa: F821
+            snakemake.output.workbook,  # noqa: F821
+            **snakemake.params,  # noqa: F821
+        )

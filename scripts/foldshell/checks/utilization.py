@@ -1,0 +1,80 @@
+"""Utilization of a state of stress: at points, in cells, as means of panels."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from foldshell.checks.strength import CRITERIA
+from foldshell.settings.material import Material
+from foldshell.shell.analysis import ShellModel
+from foldshell.shell.results import panel_area
+from foldshell.shell.stress import evaluate, sample_points, stress_resultants, surface_stresses
+
+
+@dataclass(frozen=True)
+class Utilization:
+    """Utilization, the largest over top, middle and bottom surface at each point.
+
+    `point` (E, cells^2, s^2) is the largest over combinations at sample points, `combination`
+    (c, E, cells^2, s^2) that of each; `cell` (E, cells^2) the mean of `point` over a result cell;
+    `governing` (E, cells^2) the combination with the largest mean there.
+    """
+
+    point: np.ndarray
+    combination: np.ndarray
+    cell: np.ndarray
+    governing: np.ndarray
+
+
+def compute_utilization(
+    model: ShellModel,
+    displacement: np.ndarray,
+    thickness: np.ndarray,
+    material: Material,
+) -> Utilization:
+    """Evaluate the strength criterion at the sample points of every result cell.
+
+    Parameters
+    ----------
+    displacement : (dofs, c) m and rad, of the strength combinations
+    thickness : (E,) m
+    """
+    operators = model.operators
+    resultants = stress_resultants(operators, displacement, thickness, material.youngs_modulus)
+    points = sample_points(model.mesh.cells)
+    flat = points.reshape(-1, 2)
+    criterion = CRITERIA[material.criterion]
+    combination = np.empty((displacement.shape[1], len(thickness), *points.shape[:2]))
+    for column in range(displacement.shape[1]):
+        own = slice(column, column + 1)
+        force = evaluate(operators, resultants.force[..., own], flat)
+        moment = evaluate(operators, resultants.moment[..., own], flat)
+        value = criterion(surface_stresses(force, moment, thickness), material).max(axis=0)
+        combination[column] = value[..., 0].reshape(combination.shape[1:])
+    point = combination.max(axis=0)
+    governing = combination.mean(axis=3).argmax(axis=0)
+    return Utilization(point, combination, point.mean(axis=2), governing)
+
+
+def panel_utilization(model: ShellModel, cell: np.ndarray, measure: str) -> np.ndarray:
+    """Return (P,): `panel_mean`, the area mean over the cells of a panel, or `element_max`."""
+    panel = model.mesh.panel
+    if measure == "element_max":
+        largest = np.zeros(panel.max() + 1)
+        np.maximum.at(largest, panel, cell.max(axis=1))
+        return largest
+    area = model.operators.geometry.area
+    return np.bincount(panel, cell.mean(axis=1) * area) / panel_area(model)
+
+
+def area_percentile(model: ShellModel, point: np.ndarray, percent: float = 99.0) -> float:
+    """Return the value that a share of the mesh area does not exceed.
+
+    `point` (E, ...) holds equally weighted values of each element, or of the first ones only.
+    """
+    value = point.ravel()
+    area = model.operators.geometry.area[: len(point)]
+    weight = np.repeat(area, value.size // len(point))
+    order = np.argsort(value)
+    share = np.cumsum(weight[order])
+    return float(value[order][np.searchsorted(share, percent / 100 * share[-1])])

@@ -1,0 +1,194 @@
+"""The outcome of a design, its uncertainty, and designs that differ in one thing only."""
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+
+from foldshell.claims.finding import (
+    FAILS,
+    HOLDS,
+    Finding,
+    combine_errors,
+    judge_difference,
+)
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """Unit in files, unit and factor in tables, and the error it inherits."""
+
+    unit: str
+    shown: str
+    factor: float
+    error: str
+
+
+QUANTITIES = {
+    "volume_per_area": Quantity("m", "mm", 1e3, "volume"),
+    "volume": Quantity("m3", "m3", 1, "volume"),
+    "displacement": Quantity("m", "mm", 1e3, "displacement"),
+    "displacement_edge": Quantity("m", "mm", 1e3, "displacement"),
+    "displacement_inner": Quantity("m", "mm", 1e3, "displacement"),
+    "utilization_mean": Quantity("-", "-", 1, "utilization"),
+    "utilization_variation": Quantity("-", "-", 1, "utilization"),
+    "utilization_panel_mean_max": Quantity("-", "-", 1, "utilization"),
+    "buckling_factor": Quantity("-", "-", 1, "buckling"),
+    "strength_factor": Quantity("-", "-", 1, "utilization"),
+    "depth": Quantity("m", "m", 1, "geometry"),
+    "panel_area": Quantity("m2", "m2", 1, "geometry"),
+    "edge_strain_rms": Quantity("-", "%", 100, "geometry"),
+    "angle_defect_max_rad": Quantity("rad", "rad", 1, "geometry"),
+    "flat_foldability_max_rad": Quantity("rad", "rad", 1, "geometry"),
+}
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A design and what came of it.
+
+    `row` has the columns of designs.tsv, `values` the measures of its state, `errors` the relative
+    mesh error and cross-check difference of displacement, utilization and buckling (None where
+    unknown), `quality` the contents of quality.json, `panels` (2, P) planarity and utilization.
+    """
+
+    row: Mapping[str, Any]
+    values: Mapping[str, Any]
+    errors: Mapping[str, tuple[float | None, float | None]] = field(default_factory=dict)
+    quality: Mapping[str, Any] = field(default_factory=dict)
+    panels: np.ndarray | None = None
+
+    @property
+    def name(self) -> str:
+        """Name of the design."""
+        return self.row["design"]
+
+    @property
+    def panel_count(self) -> int:
+        """Panels between the polylines."""
+        return (self.row["zigzag"] - 1) * (self.row["strip"] - 1)
+
+
+def estimate_uncertainty(outcome: Outcome, quantity: str, volume_step: float) -> float | None:
+    """Return the uncertainty of a quantity in its own unit, None where it is not known.
+
+    Mesh error and cross-check difference as root of the sum of squares. Volume inherits the
+    larger of those of displacement and utilization, since a thickness follows either at most in
+    proportion, and the change of volume `volume_step` that ends the loop, or the last one where
+    that is larger; both on the share of panels that do not stand at a bound.
+    """
+    value, kind = outcome.values.get(quantity), QUANTITIES[quantity].error
+    if value is None:
+        return None
+    if kind == "geometry":
+        return 0.0
+    if kind != "volume":
+        relative = combine_errors(*outcome.errors.get(kind, (None, None)))
+        return None if relative is None else abs(value) * relative
+    at_bound = outcome.values.get("panels_at_bound")
+    if at_bound is None:
+        return None
+    free = 1 - at_bound / outcome.panel_count
+    if free == 0:
+        return 0.0
+    errors = [combine_errors(*outcome.errors.get(name, (None, None)))
+              for name in ("displacement", "utilization")]  # fmt: skip
+    step = max(volume_step, outcome.values.get("volume_change") or 0.0)
+    relative = None if None in errors else combine_errors(max(errors), step)
+    return None if relative is None else abs(value) * free * relative
+
+
+@dataclass(frozen=True)
+class Comparer:
+    """Compares outcomes by limits of the loop: the relative change of volume that ends it, the
+    span over the displacement allowed, least mean utilization and least buckling factor."""
+
+    volume_step: float = 0.01
+    displacement_span_over: float = 240.0
+    utilization_min: float = 0.6
+    buckling_factor_min: float = 1.5
+
+    def compare(
+        self, part: str, greater: Outcome, lesser: Outcome, quantity: str, strict: bool = True
+    ) -> Finding:
+        """Find whether a quantity of `greater` exceeds that of `lesser` beyond uncertainty."""
+        names = greater.name, lesser.name
+        both = [(greater, quantity), (lesser, quantity)]
+        return self._compare(part, names, quantity, both, strict)
+
+    def compare_within(self, part: str, outcome: Outcome, greater: str, lesser: str) -> Finding:
+        """Find whether one quantity of a design exceeds another of the same unit."""
+        both = [(outcome, greater), (outcome, lesser)]
+        return self._compare(part, (outcome.name,), f"{greater}, {lesser}", both)
+
+    def _compare(
+        self,
+        part: str,
+        designs: tuple[str, ...],
+        quantity: str,
+        both: Sequence[tuple[Outcome, str]],
+        strict: bool = True,
+    ) -> Finding:
+        greater, lesser = (outcome.values.get(name) for outcome, name in both)
+        uncertainty = combine_errors(
+            *(estimate_uncertainty(outcome, name, self.volume_step) for outcome, name in both)
+        )
+        unit = QUANTITIES[both[0][1]].unit
+        verdict = judge_difference(greater, lesser, uncertainty, strict)
+        return Finding(part, designs, quantity, unit, (greater, lesser), uncertainty, verdict)
+
+
+def make_comparer(sizing: Mapping[str, Any]) -> Comparer:
+    """Return the comparer with the limits of the plain settings of the loop."""
+    return Comparer(
+        sizing["volume_change_max_relative"],
+        sizing["displacement_limit_span_over"],
+        sizing["utilization_min"],
+        sizing["thinning_buckling_factor_min"],
+    )
+
+
+def state_fact(
+    part: str, design: str, quantity: str, value: float | None, limit: float, true: bool
+) -> Finding:
+    """Return a finding that is counted, not measured: it has no uncertainty."""
+    unit = QUANTITIES[quantity].unit if quantity in QUANTITIES else "-"
+    return Finding(part, (design,), quantity, unit, (value, limit), 0.0, HOLDS if true else FAILS)
+
+
+def choose(outcomes: Iterable[Outcome], **columns: Any) -> list[Outcome]:
+    """Return the outcomes whose columns have these values; a tuple allows several."""
+
+    def fits(outcome: Outcome) -> bool:
+        """Tell whether an outcome has all of the values."""
+        return all(
+            outcome.row[name] in (value if isinstance(value, tuple) else (value,))
+            for name, value in columns.items()
+        )
+
+    return [outcome for outcome in outcomes if fits(outcome)]
+
+
+def choose_folded(outcomes: Iterable[Outcome]) -> list[Outcome]:
+    """Return the designs folded as in the paper."""
+    return choose(outcomes, pattern="miura", fold_mode="paper")
+
+
+def group_by_others(outcomes: Iterable[Outcome], column: str) -> list[dict[Any, Outcome]]:
+    """Return groups of designs that differ in one column only, {its value: outcome}, sorted."""
+    groups: dict[tuple, dict[Any, Outcome]] = {}
+    for outcome in outcomes:
+        others = tuple(
+            value for name, value in sorted(outcome.row.items())
+            if name not in ("design", "tags", column)
+        )  # fmt: skip
+        groups.setdefault(others, {})[outcome.row[column]] = outcome
+    return [dict(sorted(group.items())) for group in groups.values() if len(group) > 1]
+
+
+def pair_neighbours(outcomes: Sequence[Outcome], column: str) -> list[tuple[Outcome, Outcome]]:
+    """Return (lower, higher) pairs, neighbours in the order of a column of numbers."""
+    return [pair for group in group_by_others(outcomes, column)
+            for pair in pairwise(group.values())]  # fmt: skip

@@ -1,0 +1,118 @@
+"""How far verdicts depend on settings that the paper leaves open."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
+from typing import Any
+
+from foldshell.claims import limits, structure
+from foldshell.claims.finding import UNTOLD
+from foldshell.claims.outcome import Comparer, Outcome
+from foldshell.claims.statement import Claim
+from foldshell.claims.words import say
+
+BASE = "base"
+Judgement = Callable[[Sequence[Outcome], Comparer], Claim]
+SENSITIVE: dict[str, Judgement] = {
+    "C4": structure.judge_curvature,
+    "C5": structure.judge_material,
+    "C6": structure.judge_surfaces,
+    "C7": structure.judge_supports,
+    "C8": structure.judge_zigzags,
+    "C9": structure.judge_strips,
+    "C10": limits.judge_buckling,
+    "C11": lambda outcomes, comparer: limits.judge_free_edges(outcomes),
+    "C12": limits.judge_deflected_edges,
+}
+"""Claims that settings of the loop enter."""
+
+
+def judge_variants(
+    key: str, variants: Mapping[str, Sequence[Outcome]], comparer: Comparer
+) -> dict[str, Any] | None:
+    """Return the verdicts of a claim under every variant, on the designs that were run.
+
+    None where the claim knows no setting of the loop, or none of its designs was run.
+    """
+    if key not in SENSITIVE:
+        return None
+    claims = {name: SENSITIVE[key](outcomes, comparer) for name, outcomes in variants.items()}
+    if BASE not in claims or not claims[BASE].findings:
+        return None
+    verdicts = {}
+    for name, claim in claims.items():
+        verdict, parts = claim.judge()
+        verdicts[name] = {"verdict": verdict, "parts": parts}
+    changes = {name: _find_changes(verdicts[BASE], found) for name, found in verdicts.items()}
+    return {
+        "designs": sorted({name for f in claims[BASE].findings for name in f.designs}),
+        "verdicts": verdicts,
+        "changes": {name: found for name, found in changes.items() if found},
+    }
+
+
+def _find_changes(base: Mapping[str, Any], found: Mapping[str, Any]) -> dict[str, str]:
+    """Return the verdicts, of the claim and of its parts, that differ from those of the base."""
+    claim = {"the claim": found["verdict"]} if found["verdict"] != base["verdict"] else {}
+    parts = {
+        part: verdict
+        for part, verdict in found["parts"].items()
+        if base["parts"].get(part) != verdict
+    }
+    return claim | parts
+
+
+def judge_equal_thickness(
+    key: str, equal: Sequence[Outcome], comparer: Comparer
+) -> dict[str, Any] | None:
+    """Return the verdicts of a claim on the start states, all panels of one thickness.
+
+    Neither start nor least thickness, stop rule nor measure enters; volumes say nothing there.
+    """
+    if key not in ("C4", "C7", "C8", "C9"):
+        return None
+    claim = SENSITIVE[key](equal, comparer)
+    kept = [f for f in claim.findings if not f.quantity.startswith("volume")]
+    verdict, parts = replace(claim, findings=kept).judge()
+    return {"verdict": verdict, "parts": parts}
+
+
+def describe_dependence(
+    claim: Claim,
+    runs: Mapping[str, Any] | None,
+    equal: Mapping[str, Any] | None,
+    variants: Mapping[str, Sequence[Outcome]],
+) -> str:
+    """Say in words how far a verdict depends on the settings."""
+    words = []
+    if claim.key in ("C1", "C2", "C3", "C14"):
+        return "No setting of the sizing loop enters."
+    if runs is None:
+        words.append(f"No run with other settings answers this claim{_spread(variants)}.")
+    else:
+        base, changes = runs["verdicts"][BASE]["verdict"], runs["changes"]
+        count = len(runs["designs"])
+        words.append(f"On the {count} designs run with other settings: {say(base)}")
+        same = [name for name in runs["verdicts"] if name != BASE and name not in changes]
+        if same:
+            words[-1] += f", with the same verdicts of all parts for {', '.join(same)}"
+        changed = [
+            f"with {name} " + ", ".join(f"{part}: {say(v)}" for part, v in found.items())
+            for name, found in changes.items()
+        ]
+        words[-1] += f"; {'; '.join(changed)}." if changed else "."
+    if equal is not None and equal["verdict"] != UNTOLD:
+        parts = ", ".join(f"{part}: {say(v)}" for part, v in equal["parts"].items())
+        words.append(f"At one thickness for all panels, before any sizing: {parts}.")
+    return " ".join(words)
+
+
+def _spread(variants: Mapping[str, Sequence[Outcome]]) -> str:
+    """Return how much volumes change between those runs, for a reader to weigh differences by."""
+    base = {one.name: one.values["volume"] for one in variants.get(BASE, ())}
+    changes = {
+        name: max((abs(o.values["volume"] / base[o.name] - 1) for o in members), default=0.0)
+        for name, members in variants.items()
+        if base and name != BASE
+    }
+    shown = ", ".join(f"{100 * value:.3g} % with {name}" for name, value in changes.items())
+    return f"; volumes of the designs run change by up to {shown}" if shown else ""

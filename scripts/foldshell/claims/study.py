@@ -1,0 +1,161 @@
+"""All claims of a study, with how far each depends on settings, as plain data."""
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+from foldshell.claims import kinematics as folding
+from foldshell.claims import limits, structure
+from foldshell.claims.outcome import Comparer, Outcome
+from foldshell.claims.planarity import describe_planarity
+from foldshell.claims.sensitive import (
+    SENSITIVE,
+    describe_dependence,
+    judge_equal_thickness,
+    judge_variants,
+)
+from foldshell.claims.statement import Claim, describe_claim
+from foldshell.claims.words import make_table, show
+
+SPREAD_KEYS = (
+    "state",
+    "iterations",
+    "volume",
+    "volume_per_area",
+    "displacement",
+    "displacement_edge",
+    "displacement_inner",
+    "utilization_mean",
+    "utilization_variation",
+    "utilization_panel_mean_max",
+    "utilization_max",
+    "buckling_factor",
+    "above_one",
+    "above_one_at_free_edge",
+    "panels_at_bound",
+)
+"""Measures in the table of all runs; lengths in m, volume in m3."""
+
+
+def judge_study(
+    outcomes: Sequence[Outcome],
+    equal: Sequence[Outcome],
+    folds: Sequence[Outcome],
+    kinematics: Mapping[str, Any],
+    flats: Mapping[str, Mapping[str, Any]],
+    variants: Mapping[str, Sequence[Outcome]],
+    comparer: Comparer,
+) -> list[dict[str, Any]]:
+    """Return the entries of claims.json: C1 to C14, then what the paper left open.
+
+    Parameters
+    ----------
+    outcomes, equal : final states, and those at the start with one thickness for all panels
+    folds : designs of which only the folding counts
+    flats : what the flat sheet of equal volume does, by folded design
+    variants : outcomes under other settings, by variant
+    """
+    geometries = choose_geometries([*outcomes, *folds])
+    claims = [
+        folding.judge_auxetic(kinematics),
+        folding.judge_soft_modes(kinematics, geometries, comparer),
+        folding.judge_strengths(kinematics),
+        structure.judge_curvature(outcomes, comparer),
+        structure.judge_material(outcomes, comparer),
+        structure.judge_surfaces(outcomes, comparer),
+        structure.judge_supports(outcomes, comparer, equal),
+        structure.judge_zigzags(outcomes, comparer, equal),
+        structure.judge_strips(outcomes, comparer),
+        limits.judge_buckling(outcomes, comparer),
+        limits.judge_free_edges(outcomes),
+        limits.judge_deflected_edges(outcomes, comparer),
+        limits.judge_folds(outcomes, flats, comparer),
+        folding.judge_foldability(geometries),
+    ]
+    described = [_describe(claim, outcomes, equal, variants, comparer) for claim in claims]
+    return [*described, describe_planarity(outcomes)]
+
+
+def _describe(claim: Claim, outcomes, equal, variants, comparer: Comparer) -> dict[str, Any]:
+    entry = describe_claim(claim)
+    runs = judge_variants(claim.key, variants, comparer)
+    level = judge_equal_thickness(claim.key, equal, comparer)
+    words = describe_dependence(claim, runs, level, variants)
+    if claim.key in SENSITIVE:
+        words += _describe_states([one for one in outcomes if one.name in entry["designs"]])
+    return entry | {"sensitivity": {"words": words, "runs": runs, "equal_thickness": level}}
+
+
+def _describe_states(outcomes: Sequence[Outcome]) -> str:
+    """Say how many designs hang on the least thickness alone, and which did not settle."""
+    names = {state: [o.name for o in outcomes if o.values["state"] == state]
+             for state in ("at_minimum_thickness", "not_converged", "unstable")}  # fmt: skip
+    thin = len(names["at_minimum_thickness"])
+    words = (
+        f" {thin} of {len(outcomes)} designs stand at the least thickness in every panel, which "
+        "alone then sets volume and utilization."
+        if thin
+        else f" None of {len(outcomes)} designs stands at the least thickness in every panel."
+    )
+    unsettled = names["not_converged"] + names["unstable"]
+    if unsettled:
+        words += f" Not settled when the loop ended: {', '.join(unsettled)}."
+    return words
+
+
+def choose_geometries(outcomes: Sequence[Outcome]) -> list[Outcome]:
+    """Return one design of each folded geometry; supports do not matter to it."""
+    names = ("pattern", "surface", "span_m", "height_m", "zigzag", "strip", "fold_mode")
+    found: dict[tuple, Outcome] = {}
+    for outcome in outcomes:
+        found.setdefault(tuple(outcome.row[name] for name in names), outcome)
+    return list(found.values())
+
+
+def list_runs(variants: Mapping[str, Sequence[Outcome]]) -> list[dict[str, Any]]:
+    """Return a row a run with other settings: design, variant, measures, volume over base."""
+    base = {one.name: one.values["volume"] for one in variants.get("base", ())}
+    return [
+        {
+            "design": one.name,
+            "variant": variant,
+            "volume_over_base": one.values["volume"] / base[one.name] if one.name in base else None,
+            **{key: one.values[key] for key in SPREAD_KEYS},
+        }
+        for variant, outcomes in variants.items()
+        for one in outcomes
+    ]
+
+
+def write_spread(
+    variants: Mapping[str, Sequence[Outcome]], outcomes: Sequence[Outcome], words: Mapping[str, str]
+) -> str:
+    """Return the section on volumes under other settings: one row a design, a column a variant.
+
+    It says for how many designs the run in memory ends where the loop in files did.
+    """
+    final = {one.name: one.values["volume"] for one in outcomes}
+    base = variants.get("base", ())
+    same = sum(one.values["volume"] == final.get(one.name) for one in base)
+    volume = {name: {one.name: one for one in members} for name, members in variants.items()}
+    rows = []
+    for one in base:
+        cells = [volume[name].get(one.name) for name in variants]
+        shown = [f"{show(c.values['volume'])} {MARKS[c.values['state']]}" if c else "-"
+                 for c in cells]  # fmt: skip
+        rows.append([one.name, *shown])
+    meaning = "".join(f"- `{name}`: {words[name]}\n" for name in variants)
+    return (
+        "## Volumes under other settings\n\n"
+        f"Volume in m3; the runs in memory end at the volume of the loop in files for {same} of "
+        f"{len(base)} designs. {LEGEND}\n\n{meaning}\n" + make_table(["design", *variants], rows)
+    )
+
+
+MARKS = {
+    "converged": "c",
+    "at_minimum_thickness": "m",
+    "not_converged": "n",
+    "unstable": "u",
+    "continue": "?",
+}
+LEGEND = "c converged, m every panel at the least thickness, n not converged, u unstable."

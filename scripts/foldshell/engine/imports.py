@@ -1,0 +1,76 @@
+"""Which library files a script depends on, found by following its import statements.
+
+Snakemake runs a rule again when its script changes, but not when a module that the script imports
+does. Rules therefore have as an input a list of these files with their hashes. The list stands for
+the files because Snakemake looks at, hashes and records every input of every job, and there are
+some forty files a job and a thousand jobs.
+"""
+
+import ast
+import functools
+import hashlib
+from pathlib import Path
+
+from foldshell.files.whole import write_text_if_changed
+
+
+def write_library_list(script: str | Path, root: str | Path, folder: str | Path) -> str:
+    """Write `<folder>/<script>.sha256`, a line a library file; return its path.
+
+    A list that is right already is not touched, so only a changed library makes it newer.
+    """
+    lines = [
+        f"{_hash(path)}  {path.relative_to(root)}"
+        for path in map(Path, library_files(script, root))
+    ]
+    target = Path(folder) / f"{Path(script).stem}.sha256"
+    write_text_if_changed(target, "".join(f"{line}\n" for line in lines))
+    return str(target)
+
+
+@functools.cache
+def _hash(path: Path) -> str:
+    return hashlib.sha256(path.read_bytes()).hexdigest()
+
+
+def library_files(script: str | Path, root: str | Path) -> list[str]:
+    """Return the files below `root` that a script imports, directly or not, sorted.
+
+    Parameters
+    ----------
+    script : path of a Python file
+    root : the folder from which its imports are resolved
+    """
+    root = Path(root)
+    found: set[Path] = set()
+    pending = list(_imported(Path(script), root))
+    while pending:
+        path = pending.pop()
+        if path not in found:
+            found.add(path)
+            pending.extend(_imported(path, root))
+    return sorted(str(path) for path in found)
+
+
+@functools.cache
+def _imported(path: Path, root: Path) -> tuple[Path, ...]:
+    """Return the files below `root` that one file imports, packages' __init__ included."""
+    names: set[str] = set()
+    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+        if isinstance(node, ast.Import):
+            names.update(alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
+            names.add(node.module)
+            names.update(f"{node.module}.{alias.name}" for alias in node.names)
+    files = (file for name in sorted(names) for file in _resolve(name, root))
+    return tuple(file for file in dict.fromkeys(files) if file != path)
+
+
+def _resolve(name: str, root: Path) -> list[Path]:
+    """Return the module file of a dotted name and the __init__ files on the way to it."""
+    parts = name.split(".")
+    package_files = [root.joinpath(*parts[:k], "__init__.py") for k in range(1, len(parts) + 1)]
+    module = root.joinpath(*parts).with_suffix(".py")
+    if not (module.exists() or root.joinpath(*parts, "__init__.py").exists()):
+        return []
+    return [file for file in [*package_files, module] if file.exists()]

@@ -1,0 +1,116 @@
+"""How far a study is: a line an iteration, a table of its designs, an estimate of what is left."""
+
+import statistics
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from foldshell.files.whole import read_json
+from foldshell.results.history import find_least_factor
+
+USUAL_ITERATIONS = 15
+"""Iterations a design is taken to need until one of the study is done."""
+
+_NUMBERS = (
+    ("volume", "volume_m3", "{:.2f} m3"),
+    ("utilization", "utilization_panel_mean_max", "{:.3f}"),
+    ("displacement", "displacement_vertical_max_m", "{:.4f} m"),
+)
+
+
+@dataclass(frozen=True)
+class DesignProgress:
+    """Iterations done of a design, the last report (None before the first), seconds of all, and
+    the bytes of its mesh (None before it is made), to which the time of an analysis is about
+    proportional."""
+
+    design: str
+    iterations: int
+    last: Mapping[str, Any] | None
+    seconds: float
+    size: int | None = None
+
+    @property
+    def done(self) -> bool:
+        """True once a verdict has ended the loop."""
+        return self.last is not None and self.last["verdict"] != "continue"
+
+
+def describe_iteration(design: str, report: Mapping[str, Any]) -> str:
+    """Return one line: iteration, volume, utilization, displacement, factor, verdict, reason."""
+    words = [f"{design} iteration {report['iteration']:02d}:"]
+    for label, key, form in _NUMBERS:
+        value = report.get(key)
+        words.append(f"{label} {'-' if value is None else form.format(value)},")
+    factor = find_least_factor(report)
+    words.append(f"buckling factor {'-' if factor is None else f'{factor:.2f}'},")
+    words.append(f"{report['verdict']}: {report['reason']}")
+    return " ".join(words)
+
+
+def read_progress(results: str | Path, designs: Iterable[str]) -> list[DesignProgress]:
+    """Read the iterations of designs, up to the first missing, half-written or last one."""
+    return [_read_design(Path(results) / name, name) for name in designs]
+
+
+def _read_design(folder: Path, name: str) -> DesignProgress:
+    last, number, seconds = None, 0, 0.0
+    mesh = folder / "shell/mesh.npz"
+    size = mesh.stat().st_size if mesh.exists() else None
+    while last is None or last["verdict"] == "continue":
+        try:
+            report = read_json(folder / f"sizing/{number:02d}/analysis.json")
+            seconds += float(report["seconds"])
+            last = {"iteration": number, "reason": "", **report, "verdict": report["verdict"]}
+        except (OSError, ValueError, KeyError, TypeError):
+            break
+        number += 1
+    return DesignProgress(name, number, last, seconds, size)
+
+
+def estimate_left(progress: Iterable[DesignProgress], cores: int) -> float | None:
+    """Return the seconds that the analyses still to come take on `cores`, None before the first.
+
+    Open designs are taken to need as many iterations as the median of those done, at least one
+    more; an iteration takes the mean time so far for each byte of mesh, since the largest designs
+    come first. A design without a mesh counts as a mean one. Other jobs of the study are not
+    counted.
+    """
+    progress = list(progress)
+    known = [item.size for item in progress if item.size]
+    usual_size = statistics.mean(known) if known else 1
+    work = sum(item.iterations * (item.size or usual_size) for item in progress)
+    if not work:
+        return None
+    each = sum(item.seconds for item in progress) / work
+    done = [item.iterations for item in progress if item.done]
+    usual = statistics.median(done) if done else USUAL_ITERATIONS
+    left = sum(
+        max(1, usual - item.iterations) * (item.size or usual_size)
+        for item in progress
+        if not item.done
+    )
+    return each * left / max(1, cores)
+
+
+def show_progress(progress: Iterable[DesignProgress], cores: int) -> str:
+    """Return the text that a person looks at: a line a design, then totals."""
+    progress = list(progress)
+    lines = [
+        describe_iteration(item.design, item.last) if item.last else f"{item.design}: not begun"
+        for item in progress
+    ]
+    done = sum(item.done for item in progress)
+    total = sum(item.iterations for item in progress)
+    left = estimate_left(progress, cores)
+    time = "unknown" if left is None else f"about {_clock(left)}"
+    lines.append(f"{done} of {len(progress)} designs sized, {total} iterations; left: {time}")
+    return "\n".join(lines)
+
+
+def _clock(seconds: float) -> str:
+    minutes = round(seconds / 60)
+    if minutes < 1:
+        return f"{round(seconds)} s"
+    return f"{minutes} min" if minutes < 120 else f"{minutes / 60:.1f} h"

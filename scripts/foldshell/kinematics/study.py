@@ -1,0 +1,69 @@
+"""The kinematics study as one table of plain data: claims C1, C2, C3 and C14."""
+
+import math
+from collections.abc import Sequence
+from dataclasses import asdict
+from typing import Any
+
+from foldshell.folding.settings import FoldSettings
+from foldshell.folding.targets import make_target
+from foldshell.kinematics.force_ratios import sweep_strengths
+from foldshell.kinematics.mechanism import (
+    count_mechanisms,
+    find_soft_modes,
+    measure_isometry,
+    measure_ratios,
+)
+from foldshell.pattern.design import design_sheet
+from foldshell.pattern.miura import Miura, folded_vertices, rest_fold_angle
+
+FOLD_ANGLES_DEG = (10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0)
+PANEL_STIFFNESSES = (1.0, 10.0)  # over that of creases
+SURFACES = ("paraboloid", "hypar")
+
+
+def tabulate_ratios(sector_angle: float) -> list[dict[str, float]]:
+    """Poisson's ratios on the folding path and at rest, beside the closed forms."""
+    angles = [math.radians(a) for a in FOLD_ANGLES_DEG] + [rest_fold_angle(sector_angle)]
+    pattern = Miura(1.0, 1.0, sector_angle, 7, 8)
+    return [
+        {"fold_angle_deg": math.degrees(angle), **asdict(measure_ratios(pattern, angle))}
+        for angle in angles
+    ]
+
+
+def study_sheet(sector_angle: float, zigzags: int, strips: int) -> dict[str, Any]:
+    """Mechanisms, isometries and soft modes of one sheet in its rest state."""
+    pattern, rest = Miura(1.0, 1.0, sector_angle, zigzags, strips), rest_fold_angle(sector_angle)
+    vertices, grid = folded_vertices(pattern, rest), pattern.grid
+    return {
+        "zigzag": zigzags,
+        "strip": strips,
+        "rigid_panels": asdict(count_mechanisms(vertices, grid, True)),
+        "bending_panels": asdict(count_mechanisms(vertices, grid, False)),
+        "isometry_residual": measure_isometry(vertices, grid),
+        "modes": [
+            {"panel_over_crease": ratio, **asdict(mode)}
+            for ratio in PANEL_STIFFNESSES
+            for mode in find_soft_modes(pattern, rest, ratio)
+        ],
+    }
+
+
+def study_strengths(
+    span: float,
+    height: float,
+    sector_angle: float,
+    attractions: Sequence[float],
+    panels: Sequence[float],
+    settings: FoldSettings,
+) -> list[dict[str, Any]]:
+    """Sweep the strengths on a dome and a saddle, quadrilaterals and triangles, by one engine."""
+    rows = []
+    for surface in SURFACES:
+        target = make_target(surface, span, height)
+        angle = math.degrees(sector_angle)
+        sheet = design_sheet("miura", target.section_lengths(), 15, 16, angle, 0)
+        trials = sweep_strengths(sheet, target, settings, attractions, panels)
+        rows += [{"surface": surface, **asdict(trial)} for trial in trials]
+    return rows

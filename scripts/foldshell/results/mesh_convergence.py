@@ -1,0 +1,210 @@
+"""Mesh error of the headline numbers: one state on the mesh in use and on a reference mesh."""
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+
+from foldshell.checks.utilization import area_percentile, compute_utilization, panel_utilization
+from foldshell.settings.material import Material
+from foldshell.shell.analysis import analyse_shell, build_model
+from foldshell.shell.edge_beams import EdgeBeam
+from foldshell.shell.mesh_files import mesh_folded_sheet, mesh_from_arrays
+from foldshell.shell.results import largest_downward, support_reactions, translations
+
+REFERENCE = {"order": 7}
+"""What the mesh that gives the limit changes in the mesh in use: the element order. On the thin
+folded sheets of tests/verification it is within 1 % of 16 subdivisions in displacement, within 2 %
+in work; the 99th percentile of utilization stays 1 to 6 % too low. docs/crosscheck.md has long
+facets."""
+
+EQUIVALENT = 12
+"""Subdivisions that count for it where values are extrapolated: a choice on the safe side, which
+adds an eighth of the difference from 4 subdivisions."""
+
+SMOOTH_REFERENCE = {"subdivisions": 8}
+"""The mesh for sheets without folds: a thin dome as high as it is wide has bumps narrower than a
+facet, and one element of order 7 leaves them 5 % too low; 8 and 16 subdivisions agree."""
+
+SHARP = np.radians(20)
+"""Mean angle between neighbouring facets from which a sheet counts as folded."""
+
+FLAT = np.radians(1)
+"""Angle up to which two facets count as one plane."""
+
+ORDER = 2.0
+"""Rate at which the error is taken to fall from the mesh in use to the reference mesh."""
+
+LARGEST_FACTOR = 1e6
+"""Stands for the buckling factor of a structure that is not compressed at all."""
+
+QUANTITIES = (
+    "displacement_down_max_m",
+    "displacement_max_m",
+    "work_knm",
+    "utilization_p99",
+    "utilization_panel_mean_max",
+)
+
+
+FACTOR = "buckling_factor"
+"""Its mesh error is reported apart: modes inside slender panels settle later than all else."""
+
+
+class MechanismError(ValueError):
+    """A state without displacements, and where it gives way."""
+
+
+def extrapolate(coarse: float, fine: float, ratio: float, order: float = ORDER) -> float:
+    """Return the Richardson limit fine + (fine - coarse) / (ratio^order - 1)."""
+    return fine + (fine - coarse) / (ratio**order - 1)
+
+
+def study_mesh(
+    folded: Mapping[str, np.ndarray],
+    support: str,
+    panel_thickness: np.ndarray,
+    subdivisions: int,
+    material: Material,
+    loads: Any,
+    combinations: Mapping[str, Mapping[str, float]],
+    edge_beam: EdgeBeam | None = None,
+) -> dict[str, Any]:
+    """Return {quantity: [on the mesh in use, on the reference mesh]} by combination.
+
+    Quantities are of first order; `second_order` holds the same to second order, where the
+    structure does not buckle, and `buckling_factor` stands beside them. A mechanism has none of
+    them: `combinations` is empty and `reason` says why.
+
+    Parameters
+    ----------
+    folded : arrays of folded.npz
+    panel_thickness : (P,) m
+    subdivisions : of the mesh in use
+    edge_beam : its strips count among the panels
+    """
+    state = (folded, support, edge_beam, panel_thickness, material, loads, combinations)
+    in_use = {"subdivisions": subdivisions}
+    reference = choose_reference(folded, subdivisions)
+    finest = reference.get("subdivisions", EQUIVALENT)
+    report = {"subdivisions": [subdivisions, max(finest, 2 * subdivisions)], "reference": reference}
+    try:
+        meshes = [_analyse(mesh, *state) for mesh in (in_use, in_use | reference)]
+    except MechanismError as error:
+        return {**report, "combinations": {}, "reason": str(error)}
+    found = {name: _pair(meshes[0][name], meshes[1][name]) for name in combinations}
+    return {**report, "combinations": found}
+
+
+def choose_reference(folded: Mapping[str, np.ndarray], subdivisions: int) -> dict[str, Any]:
+    """Return how the reference mesh differs: of high order for folded sheets, else finer."""
+    if measure_mean_fold(folded["vertices"], folded["facets"]) >= SHARP:
+        return REFERENCE
+    finest = max(SMOOTH_REFERENCE["subdivisions"], 2 * subdivisions)
+    return SMOOTH_REFERENCE | {"subdivisions": finest}
+
+
+def measure_mean_fold(vertices: np.ndarray, facets: np.ndarray) -> float:
+    """Return the mean angle (rad) between neighbouring facets that are not one plane, 0 for none.
+
+    A panel's own two facets and those of a flat sheet do not count.
+    """
+    a, b, c = vertices[facets].swapaxes(0, 1)
+    normal = np.cross(b - a, c - a)
+    normal /= np.linalg.norm(normal, axis=1)[:, None]
+    edges = np.sort(facets[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    _, which, count = np.unique(edges, axis=0, return_inverse=True, return_counts=True)
+    order = np.argsort(which.ravel(), kind="stable")
+    inner = order[count[which.ravel()[order]] == 2].reshape(-1, 2) // 3
+    cosine = (normal[inner[:, 0]] * normal[inner[:, 1]]).sum(axis=1)
+    angle = np.arccos(np.clip(cosine, -1, 1))
+    bent = angle[angle > FLAT]
+    return float(bent.mean()) if len(bent) else 0.0
+
+
+def _pair(coarse: Mapping[str, Any], fine: Mapping[str, Any]) -> dict[str, Any]:
+    """Return [coarse, fine] of every quantity that both meshes give, at any depth."""
+    return {
+        name: _pair(coarse[name], fine[name])
+        if isinstance(coarse[name], Mapping)
+        else [coarse[name], fine[name]]
+        for name in coarse
+        if name in fine
+    }
+
+
+def estimate_errors(study: Mapping[str, Any]) -> dict[str, dict[str, float]]:
+    """Return the relative error of each quantity on the mesh in use, {combination: {quantity}}."""
+    coarse, fine = study["subdivisions"]
+    return {
+        name: {
+            quantity: _relative(
+                values[quantity][0],
+                extrapolate(values[quantity][0], values[quantity][1], fine / coarse),
+            )
+            for quantity in (*QUANTITIES, FACTOR)
+            if quantity in values
+        }
+        for name, values in study["combinations"].items()
+    }
+
+
+def find_largest_errors(errors: Mapping[str, Mapping[str, float]]) -> dict[str, float | None]:
+    """Return `mesh_error`, the largest but for buckling, and `buckling_mesh_error`."""
+    found = [(name == FACTOR, error) for one in errors.values() for name, error in one.items()]
+    return {
+        key: max((error for buckles, error in found if buckles == wanted), default=None)
+        for key, wanted in (("mesh_error", False), ("buckling_mesh_error", True))
+    }
+
+
+def _relative(value: float, limit: float) -> float:
+    return abs(value - limit) / abs(limit) if limit else 0.0
+
+
+def _analyse(mesh, folded, support, edge_beam, panel_thickness, material, loads, combinations):
+    """Analyse one mesh; return {combination: {quantity: value, second_order: {...}}}."""
+    arrays = mesh_folded_sheet(dict(folded), support, **mesh, edge_beam=edge_beam)
+    held, fixed = arrays["supported_nodes"], arrays.get("fixed_thickness")
+    model = build_model(
+        mesh_from_arrays(arrays), held, material.poissons_ratio, fixed_thickness=fixed
+    )
+    thickness = model.spread(panel_thickness)
+    result = analyse_shell(model, thickness, material, loads, combinations)
+    if result.state == "mechanism":
+        raise MechanismError(result.reason)
+    first = replace(result, displacement=result.linear, second_order=None)
+    values = _measure(model, first, thickness, material)
+    for column, name in enumerate(result.names):
+        factor = float(result.buckling.factors[column]) if result.buckling else 0.0
+        values[name]["buckling_factor"] = min(factor, LARGEST_FACTOR)
+    if result.state == "ok":
+        for name, quantities in _measure(model, result, thickness, material).items():
+            values[name]["second_order"] = quantities
+    return values
+
+
+def _measure(model, result, thickness, material) -> dict[str, dict[str, Any]]:
+    """Return the quantities of each combination of a result."""
+    used = compute_utilization(model, result.displacement, thickness, material).combination
+    reactions = support_reactions(model, result, thickness, material).sum(axis=0)
+    load = translations(model, result.loads).sum(axis=0)
+    moved = translations(model, result.displacement)
+    work = (result.displacement * result.loads).sum(axis=0)
+    return {
+        name: {
+            "displacement_down_max_m": largest_downward(
+                model, result.displacement[:, [column]], [name]
+            )[0],
+            "displacement_max_m": float(np.linalg.norm(moved[:, :, column], axis=1).max()),
+            "work_knm": float(work[column]),
+            "utilization_p99": area_percentile(model, used[column]),
+            "utilization_panel_mean_max": float(
+                panel_utilization(model, used[column].mean(axis=2), "panel_mean").max()
+            ),
+            "reaction_sum_kn": reactions[:, column].tolist(),
+            "load_sum_kn": load[:, column].tolist(),
+        }
+        for column, name in enumerate(result.names)
+    }

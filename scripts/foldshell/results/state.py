@@ -1,0 +1,140 @@
+"""The final state of a design, read once for all its pictures and for design.vtu."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from foldshell.files.errors import InputError
+from foldshell.files.whole import read_arrays, read_json
+from foldshell.shell.mesh import ShellMesh
+from foldshell.shell.mesh_files import (
+    cell_triangles,
+    interpolate_to_cells,
+    read_mesh,
+    result_mesh,
+)
+
+
+@dataclass(frozen=True)
+class DesignState:
+    """Geometry and results of a design.
+
+    `mesh` is the shell mesh, `cells` the linear mesh of its result cells and `triangles`
+    (C, 3) those cells; `shell`, `folded`, `final` hold the arrays of mesh.npz, folded.npz,
+    final.npz and `report` is final.json. `strength` and `deflection` name the combinations in
+    the order of the displacement columns. `classes` hold the arrays of sizing/classes.npz. Values
+    of panels (P,) go before those of the edge beam's strips (B,), which have panels of their own.
+    """
+
+    name: str
+    mesh: ShellMesh
+    cells: ShellMesh
+    triangles: np.ndarray
+    shell: Mapping[str, np.ndarray]
+    folded: Mapping[str, np.ndarray]
+    final: Mapping[str, np.ndarray]
+    report: Mapping[str, Any]
+    strength: tuple[str, ...]
+    deflection: tuple[str, ...]
+    classes: Mapping[str, np.ndarray] = field(default_factory=dict)
+
+    @property
+    def combinations(self) -> tuple[str, ...]:
+        """All combinations, strength first."""
+        return self.strength + self.deflection
+
+    @property
+    def strip_thickness(self) -> np.ndarray:
+        """Thickness of the edge beam's strips, (B,) m; empty where there is none."""
+        return self.shell.get("fixed_thickness", np.empty(0))
+
+    @property
+    def panel_thickness(self) -> np.ndarray:
+        """Thickness of panels and strips, (P + B,) m."""
+        return np.concatenate([self.final["thickness"], self.strip_thickness])
+
+    @property
+    def panel_utilization(self) -> np.ndarray:
+        """Mean utilization of panels and strips, (P + B,)."""
+        strips = self.final.get("edge_beam_utilization_panel_mean", np.empty(0))
+        return np.concatenate([self.final["utilization_panel_mean"], strips])
+
+    @property
+    def cell_panel(self) -> np.ndarray:
+        """Panel of each cell, (C,)."""
+        return np.repeat(self.mesh.panel, self.cells.order**2)
+
+    @property
+    def usable(self) -> bool:
+        """Whether there are finite displacements."""
+        return bool(np.isfinite(self.final.get("displacement", np.nan)).all())
+
+    @property
+    def utilization(self) -> np.ndarray | None:
+        """Utilization of each cell (C,), None where the analysis gave none."""
+        values = self.final.get("utilization_cell")
+        return None if values is None else values.ravel()
+
+    def displacement_at_nodes(self, combination: str) -> np.ndarray:
+        """Return the displacements (N, 3) m of the result mesh's nodes."""
+        column = self.combinations.index(combination)
+        return self._at_cells(self.final["displacement"][:, column])
+
+    def buckling_mode(self, combination: str) -> np.ndarray:
+        """Return a mode (N, 3), scaled to a largest translation of 1."""
+        column = self.combinations.index(combination)
+        free = np.ones(self.mesh.dof_count, dtype=bool)
+        free[(3 * self.shell["supported_nodes"][:, None] + np.arange(3)).ravel()] = False
+        mode = np.zeros(self.mesh.dof_count)
+        mode[free] = self.final["buckling_modes"][:, column]
+        mode = self._at_cells(mode)
+        largest = np.linalg.norm(mode, axis=1).max()
+        return mode / largest if largest > 0 else mode
+
+    def _at_cells(self, dofs: np.ndarray) -> np.ndarray:
+        moved = dofs[: 3 * len(self.mesh.nodes)].reshape(-1, 3)
+        return interpolate_to_cells(self.mesh, self.cells, moved)
+
+
+def read_state(
+    name: str,
+    mesh_path: str | Path,
+    folded_path: str | Path,
+    final_path: str | Path,
+    report_path: str | Path,
+    combinations: Mapping[str, Mapping[str, Any]],
+    classes_path: str | Path | None = None,
+) -> DesignState:
+    """Read mesh.npz, folded.npz, final.npz, final.json and, if given, classes.npz of a design.
+
+    `combinations` are those of the settings: strength and deflection, by name.
+
+    Raises
+    ------
+    InputError
+        if the final thicknesses are not one for each panel.
+    """
+    mesh, shell = read_mesh(mesh_path)
+    final = read_arrays(final_path)
+    panels = int(mesh.panel.max()) + 1 - len(shell.get("fixed_thickness", ()))
+    if final["thickness"].shape != (panels,):
+        raise InputError(
+            f"{final_path}: thickness: {final['thickness'].shape}: one for each of {panels} panels"
+        )
+    cells = result_mesh(mesh, shell["vertices"], shell["facets"])
+    return DesignState(
+        name=name,
+        mesh=mesh,
+        cells=cells,
+        triangles=cell_triangles(cells),
+        shell=shell,
+        folded=read_arrays(folded_path),
+        final=final,
+        report=read_json(report_path),
+        strength=tuple(combinations["strength"]),
+        deflection=tuple(combinations["deflection"]),
+        classes=read_arrays(classes_path) if classes_path else {},
+    )

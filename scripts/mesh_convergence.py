@@ -1,0 +1,57 @@
+"""Rule mesh_convergence: the final state on a second mesh, for its error and the cross-check."""
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from foldshell.files.errors import user_errors
+from foldshell.files.whole import read_arrays, write_json
+from foldshell.loads.cases import Loads
+from foldshell.results.mesh_convergence import estimate_errors, find_largest_errors, study_mesh
+from foldshell.settings.material import Material
+from foldshell.shell.edge_beams import make_edge_beam
+
+
+def main(
+    folded_path: str | Path,
+    final_path: str | Path,
+    study_path: str | Path,
+    primary_path: str | Path,
+    *,
+    support: str,
+    edge_beam: Sequence[float] = (0.0, 0.0),
+    subdivisions: int,
+    settings: Mapping[str, Any],
+) -> None:
+    """Write mesh_convergence.json (errors of the mesh in use), crosscheck/primary.json; those of a
+    mechanism hold the reason in place of numbers."""
+    chosen = settings["crosscheck"]
+    groups = settings["combinations"]
+    combinations = {
+        chosen[group]: groups[group][chosen[group]] for group in ("strength", "deflection")
+    }
+    study = study_mesh(
+        read_arrays(folded_path),
+        support,
+        read_arrays(final_path)["thickness"],
+        subdivisions,
+        Material(**settings["material"]),
+        Loads(**settings["loads"]),
+        combinations,
+        make_edge_beam(*edge_beam),
+    )
+    errors = estimate_errors(study)
+    report = find_largest_errors(errors) | {"subdivisions": subdivisions}
+    write_json(study_path, report | {"errors": errors, "study": study})
+    write_json(primary_path, study)
+
+
+if "snakemake" in globals():
+    with user_errors():
+        main(
+            snakemake.input.folded,  # noqa: F821
+            snakemake.input.final,  # noqa: F821
+            snakemake.output.study,  # noqa: F821
+            snakemake.output.primary,  # noqa: F821
+            **snakemake.params,  # noqa: F821
+        )

@@ -1,0 +1,67 @@
+"""The page of claims: what stands in its tables."""
+
+from dataclasses import replace
+
+from claims_case import make_outcome
+from foldshell.claims.kinematics import judge_foldability
+from foldshell.claims.limits import judge_folds
+from foldshell.claims.outcome import Comparer
+from foldshell.claims.statement import Claim, describe_claim
+from foldshell.claims.structure import judge_supports
+from foldshell.claims.words import join_names, write_findings, write_section
+
+COMPARER = Comparer()
+
+
+def test_names_share_what_they_have_in_common():
+    assert join_names(["arch-28-strip", "arch-28-zigzag"]) == "arch-28-strip\\|zigzag"
+    assert join_names(["arch-28", "flat"]) == "arch-28 | flat".replace("|", "\\|")
+    assert join_names(["one"]) == "one"
+
+
+def test_a_row_holds_the_values_in_the_order_of_its_name():
+    """The evenness of C7 is claimed the other way round than the volume."""
+    designs = [
+        make_outcome({"utilization_variation": 0.3, "volume_per_area": 0.08}, support="strip"),
+        make_outcome({"utilization_variation": 0.5, "volume_per_area": 0.05}, support="zigzag"),
+    ]
+    entry = describe_claim(judge_supports(designs, COMPARER))
+    (table,) = write_findings(entry["numbers"]["findings"])
+    row = table.splitlines()[2]
+    assert "zigzag\\|strip" in row
+    assert "0.5 / 0.3 ± 0.029: holds" in row and "50 / 80 ± 4.8: holds" in row
+    assert "volume per area [mm]" in table
+
+
+def test_rows_share_a_table_only_where_columns_mean_the_same():
+    """The worst of planarity and strain decides rigid foldability: the header says which it is."""
+    exact = {"planarity_max": 0.0, "edge_strain_max": 0.0, "angle_defect_max_rad": 0.0,
+             "flat_foldability_max_rad": 0.0}  # fmt: skip
+    designs = [
+        replace(make_outcome(strip=16 + k), quality=exact | {worst: 0.02})
+        for k, worst in enumerate(("planarity_max", "edge_strain_max", "planarity_max"))
+    ]
+    tables = write_findings(describe_claim(judge_foldability(designs))["numbers"]["findings"])
+    assert [len(table.splitlines()) for table in tables] == [4, 3]
+    assert "rigid foldability: planarity max [-], limit 0.001" in tables[0]
+    assert "rigid foldability: edge strain max [-], limit 0.001" in tables[1]
+    assert "angle defect max [rad]" in tables[0]
+
+
+def test_a_section_says_what_cannot_be_told():
+    entry = describe_claim(Claim("C6", [])) | {"sensitivity": {"words": "Nothing."}}
+    section = write_section(entry)
+    assert section.startswith("## C6: cannot be told") and "Sensitivity: Nothing." in section
+
+
+def test_flat_sheets_have_a_row_each():
+    design = make_outcome()
+    flat = {
+        "flat": "flat-sheet", "state": "unstable", "thickness_m": 0.05, "volume_m3": 80.0,
+        "area_m2": 1600.0, "sides_m": [40.0, 41.5], "displacement_first_order_m": 2.0,
+        "errors": {}, "measures": {"displacement": None, "utilization_panel_mean_max": None},
+    }  # fmt: skip
+    claim = judge_folds([design], {design.name: flat}, COMPARER)
+    section = write_section(describe_claim(claim))
+    assert "| flat-sheet | 40 x 41.5 | 50 | 80 | unstable | 2 | - |" in section
+    assert section.startswith("## C13: holds")

@@ -1,0 +1,206 @@
+"""The table of designs: Table 1 in our reading, and every way to spoil a table."""
+
+import pytest
+
+from foldshell.files.errors import InputError
+from foldshell.settings.designs import (
+    COLUMNS,
+    design_name_pattern,
+    designs_schema,
+    read_designs,
+    select_designs,
+)
+from foldshell.settings.make import make_settings
+from foldshell.settings.schema import CONFIG_FOLDER
+from foldshell.settings.stages import choose_subdivisions
+
+SETTINGS = make_settings({})
+HEADER = "\t".join(COLUMNS)
+GOOD = "a\tmiura\tarch\t28\t10\t15\t16\tstrip\tpaper\t0.5\t0.15\tx,y"
+
+
+def read(tmp_path, text: str | bytes):
+    path = tmp_path / "designs.tsv"
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+    return read_designs(path, SETTINGS)
+
+
+@pytest.fixture(scope="module")
+def designs():
+    return read_designs(CONFIG_FOLDER / "designs.tsv", SETTINGS)
+
+
+def test_columns_are_those_of_the_schema():
+    assert tuple(designs_schema()["properties"]) == COLUMNS
+
+
+def test_table_one_series(designs):
+    """Paper, Table 1 as read in the docs: 5 + 5 span/heights, 30 densities, 3 on all edges, of
+    which two coincide: 41 designs, and nine of them compare the supports (Fig. 6)."""
+    table = select_designs(designs, "table1")
+    assert len(table) == 41
+    curvature = select_designs(designs, "curvature")
+    pairs = {(28.0, 10.0), (13.0, 5.0), (5.0, 2.0), (28.0, 28.0), (28.0, 6.0)}
+    for surface, support in (("paraboloid", "all"), ("arch", "strip")):
+        series = [design for design in curvature if design.surface == surface]
+        assert {(design.span, design.height) for design in series} == pairs
+        assert {(design.support, design.zigzag, design.strip) for design in series} == {
+            (support, 15, 16)
+        }
+    density = select_designs(designs, "density")
+    counts = {(30, 16), (50, 16), (15, 16), (30, 32), (8, 32)}
+    expected = {
+        (surface, support, count)
+        for surface in ("paraboloid", "hypar", "arch")
+        for support in ("zigzag", "strip")
+        for count in counts
+    }
+    assert {(d.surface, d.support, (d.zigzag, d.strip)) for d in density} == expected
+    assert {(design.span, design.height) for design in density} == {(28.0, 10.0)}
+
+
+def test_supports_designs_are_the_nine_of_fig_6(designs):
+    chosen = select_designs(designs, "supports")
+    assert len(chosen) == 9
+    assert {(design.surface, design.support) for design in chosen} == {
+        (surface, support)
+        for surface in ("paraboloid", "hypar", "arch")
+        for support in ("all", "zigzag", "strip")
+    }
+    assert {(d.span, d.height, d.zigzag, d.strip) for d in chosen} == {(28.0, 10.0, 15, 16)}
+
+
+def test_names_say_what_a_design_is(designs):
+    for design in select_designs(designs, "table1"):
+        size = f"{design.span:g}-{design.height:g}-{design.zigzag}x{design.strip}"
+        assert design.name == f"{design.surface}-{size}-{design.support}"
+    assert len({design.to_row().values().__repr__() for design in designs}) == len(designs)
+
+
+def test_baselines_and_demo(designs):
+    assert {design.pattern for design in select_designs(designs, "baseline")} == {"smooth", "flat"}
+    (demo,) = select_designs(designs, "demo")
+    assert demo.panels < 100
+    assert choose_subdivisions(SETTINGS, demo) == SETTINGS.analysis.subdivisions_demo
+    assert choose_subdivisions(SETTINGS, designs[0]) == SETTINGS.analysis.subdivisions
+
+
+def test_left_out_columns_and_empty_cells_take_defaults(tmp_path):
+    settings = make_settings({"defaults": {"span_m": 13, "support": "strip"}})
+    path = tmp_path / "designs.tsv"
+    path.write_text("design\theight_m\nfirst\t\nsecond\t5\n", encoding="utf-8")
+    first, second = read_designs(path, settings)
+    assert (first.span, first.height, first.support, first.tags) == (13.0, 10.0, "strip", ())
+    assert (second.height, second.panels) == (5.0, 14 * 15)
+
+
+def test_an_edge_beam_has_both_sizes_or_none(tmp_path):
+    second_row = GOOD.replace("a", "b", 1).replace("0.5\t0.15", "\t")
+    first, second = read(tmp_path, f"{HEADER}\n{GOOD}\n{second_row}\n")
+    assert (first.edge_beam_depth, first.edge_beam_thickness) == (0.5, 0.15)
+    assert (second.edge_beam_depth, second.edge_beam_thickness) == (0.0, 0.0)
+    assert first.to_row()["edge_beam_thickness_m"] == 0.15
+
+
+def test_remarks_blank_lines_windows_lines_and_order_of_columns(tmp_path):
+    text = "\ufeff# remark\r\n\r\nspan_m\tdesign\ttags\r\n5.5\tb\tx, y,x\r\n28\ta\t\r\n"
+    first, second = read(tmp_path, text)
+    assert (first.name, first.span, first.tags) == ("b", 5.5, ("x", "y"))
+    assert second.name == "a"
+
+
+def test_target_surface_file(tmp_path):
+    mesh = tmp_path / "roof.vtu"
+    mesh.write_text("anything")
+    (design,) = read(tmp_path, f"design\tsurface\na\t{mesh}\n")
+    assert design.surface == str(mesh)
+    with pytest.raises(InputError, match="no such file"):
+        read(tmp_path, f"design\tsurface\na\t{tmp_path}/none.vtu\n")
+
+
+def cell(column: str, value: str) -> str:
+    cells = GOOD.split("\t")
+    cells[COLUMNS.index(column)] = value
+    return f"{HEADER}\n" + "\t".join(cells) + "\n"
+
+
+@pytest.mark.parametrize(
+    ("text", "named"),
+    [
+        ("", "empty"),
+        (HEADER + "\n", "no design"),
+        (b"\xff\xfea\x00", "not UTF-8"),
+        (b"design\n\xe9\n", "not UTF-8"),
+        (b"design\na\x00b\n", "control character"),
+        ("design,span_m\na,28\n", "with tabs between"),
+        ("span_m\theight_m\n28\t10\n", "'design' is missing"),
+        ("design\tspan\na\t28\n", "unknown column, the nearest is span_m"),
+        ("design\txyz\na\t28\n", "unknown column, allowed are design"),
+        ("design\tspan_m\tspan_m\na\t28\t28\n", "stands twice"),
+        ("design\tspan_m\na\n", "line 2: 1 cells: 2 are allowed"),
+        ("design\tspan_m\na\t28\t\n", "line 2: 3 cells"),
+        ("design\na\nb\na\n", "line 4: design 'a': the name stands twice, first in line 2"),
+        ("design\na\nA\n", "design 'A'"),
+        (cell("design", ""), "a name is due"),
+        (cell("design", "../x"), "design: '../x'"),
+        (cell("design", "a/b"), "a name of lower-case letters"),
+        (cell("design", "a b"), "a name of lower-case letters"),
+        (cell("design", "-a"), "a name of lower-case letters"),
+        (cell("design", "a" * 65), "64 at most"),
+        (cell("design", "ä"), "a name of lower-case letters"),
+        (cell("design", "..."), "a name of lower-case letters"),
+        (cell("design", "$(id)"), "a name of lower-case letters"),
+        (cell("design", "figures"), "reserved"),
+        (cell("design", "con"), "reserved"),
+        (cell("pattern", "yoshimura"), "one of miura, arc_miura, smooth, flat"),
+        (cell("surface", "parabolid"), "the nearest is paraboloid"),
+        (cell("surface", "roof.txt"), "or a mesh file"),
+        (cell("span_m", "28e"), "the value is text"),
+        (cell("span_m", "28,5"), "write 28.5"),
+        (cell("span_m", "0x1c"), "span_m"),
+        (cell("span_m", "028"), "span_m"),
+        (cell("span_m", "nan"), "span_m"),
+        (cell("span_m", "inf"), "span_m"),
+        (cell("span_m", "1e99"), "at most 500"),
+        (cell("span_m", "0"), "above 0"),
+        (cell("span_m", "-28"), "above 0"),
+        (cell("span_m", "28000"), "at most 500"),
+        (cell("span_m", "true"), "span_m"),
+        (cell("height_m", "-0.0"), "above 0"),
+        (cell("zigzag", "15.5"), "whole number"),
+        (cell("zigzag", "010"), "zigzag"),
+        (cell("zigzag", "2"), "at least 3"),
+        (cell("strip", "1001"), "at most 1000"),
+        (cell("support", "edges"), "one of all, zigzag, strip"),
+        (cell("fold_mode", "papper"), "the nearest is paper"),
+        (cell("edge_beam_depth_m", "0.01"), "edge_beam_depth_m: 0.01: 0 for none or a number in m"),
+        (cell("edge_beam_depth_m", "6"), "0.05 to 5, or of -5 to -0.05 is allowed"),
+        (cell("edge_beam_thickness_m", "-1"), "0.02 to 2 is allowed"),
+        (cell("edge_beam_thickness_m", "0,15"), "write 0.15 with a decimal point"),
+        (cell("edge_beam_thickness_m", ""), "edge_beam_thickness_m: 0 beside edge_beam_depth_m"),
+        (cell("edge_beam_depth_m", "0"), "both above 0 are allowed, or none"),
+        (cell("support", "all"), "no border is free to carry an edge beam"),
+        (cell("tags", "x;y"), "with commas between"),
+        (cell("tags", "x,,y"), "with commas between"),
+        (cell("tags", "../x"), "with commas between"),
+        (f"{HEADER}\n" + GOOD.replace("\t15\t16", "\t100\t100") + "\n", "9801 panels: at most"),
+    ],
+)
+def test_bad_table_is_refused_with_its_place(tmp_path, text, named):
+    with pytest.raises(InputError, match=named) as caught:
+        read(tmp_path, text)
+    message = str(caught.value)
+    assert message.startswith(str(tmp_path / "designs.tsv")) and "\n" not in message
+
+
+def test_unknown_tag_names_the_nearest(designs):
+    with pytest.raises(InputError, match="the nearest is supports"):
+        select_designs(designs, "suports")
+
+
+def test_name_pattern_serves_as_a_wildcard_constraint():
+    import re
+
+    pattern = design_name_pattern()
+    assert re.fullmatch(pattern, "paraboloid-28-10-15x16-all")
+    assert not re.fullmatch(pattern, "a/b") and not re.fullmatch(pattern, "a\n")
