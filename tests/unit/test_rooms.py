@@ -1,4 +1,4 @@
-"""Rooms of the library import only rooms below them; leaves of the tree import none of each other."""
+"""Rooms import only rooms below them; the topmost ones import none of each other."""
 
 import ast
 from pathlib import Path
