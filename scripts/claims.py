@@ -4,8 +4,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from foldshell.claims.design_result import make_comparer
 from foldshell.claims.gather import Sources, read_sources
-from foldshell.claims.outcome import make_comparer
 from foldshell.claims.sensitivity import describe_variants
 from foldshell.claims.study import judge_study, list_runs, write_spread
 from foldshell.claims.words import write_claims

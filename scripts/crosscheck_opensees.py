@@ -22,7 +22,7 @@ def main(
     *,
     subdivisions: Sequence[int] = (4, 8),
 ) -> None:
-    """Write one row a design, combination and quantity: the primary code's limit and OpenSees'."""
+    """Write one row per design, combination and quantity: both limits."""
     open_opensees()
     if not model_paths:
         raise CrosscheckError("designs: tags: no design has the tag 'supports' to be checked")

@@ -1,4 +1,4 @@
-"""Gather one row a design into summary.csv and summary.xlsx."""
+"""Gather one row per design into summary.csv and summary.xlsx."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path

@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 
-from foldshell.claims.outcome import Outcome
+from foldshell.claims.design_result import DesignResult
 
 ERRORS = {name: (0.03, 0.04) for name in ("displacement", "utilization", "buckling")}
 """Mesh error 3 % and cross-check difference 4 %: 5 % together."""
@@ -30,7 +30,7 @@ def make_row(design: str | None = None, **columns: Any) -> dict[str, Any]:
     return {"design": design or name.replace(".", "_")} | row
 
 
-def make_outcome(values: dict[str, Any] | None = None, **columns: Any) -> Outcome:
-    """Return an outcome with 5 % uncertainty; `columns` say which design it is."""
+def make_design_result(values: dict[str, Any] | None = None, **columns: Any) -> DesignResult:
+    """Return an design_result with 5 % uncertainty; `columns` say which design it is."""
     panels = np.stack([np.linspace(0.0, 0.04, 20), np.linspace(0.9, 0.2, 20)])
-    return Outcome(make_row(**columns), VALUES | (values or {}), ERRORS, {}, panels)
+    return DesignResult(make_row(**columns), VALUES | (values or {}), ERRORS, {}, panels)

@@ -54,7 +54,7 @@ def _write_design(folder):
 
 def _write_study(results):
     _write_design(results / "small")
-    write_json(results / "kinematics.json", {"ratios": [], "sheets": [], "strengths": []})
+    write_json(results / "kinematics.json", {"ratios": [], "sheets": [], "force_ratios": []})
     for variant in ("base", "start_60"):
         sensitivity.main(
             results / "small/shell/mesh.npz", results / f"sensitivity/{variant}/small.json",

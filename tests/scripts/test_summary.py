@@ -1,4 +1,4 @@
-"""The script summary: one row a design, whatever became of it."""
+"""The script summary: one row per design, whatever became of it."""
 
 import csv
 import json

@@ -4,8 +4,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from foldshell.claims.outcome import Outcome
-from foldshell.claims.read import read_fold, read_outcome, read_variant
+from foldshell.claims.design_result import DesignResult
+from foldshell.claims.read import read_design_result, read_fold, read_variant
 from foldshell.files.errors import InputError
 from foldshell.files.whole import read_json
 
@@ -15,12 +15,12 @@ Rows = Sequence[Mapping[str, Any]]
 class Sources(NamedTuple):
     """What `judge_study` takes, in its order."""
 
-    outcomes: list[Outcome]
-    equal: list[Outcome]
-    folds: list[Outcome]
+    design_results: list[DesignResult]
+    equal: list[DesignResult]
+    folds: list[DesignResult]
     kinematics: Mapping[str, Any]
     flats: dict[str, Mapping[str, Any]]
-    variants: dict[str, list[Outcome]]
+    variants: dict[str, list[DesignResult]]
 
 
 def read_sources(
@@ -34,7 +34,9 @@ def read_sources(
         for a file that is missing or damaged.
     """
     try:
-        both = [read_outcome(row, results / row["design"], settings) for row in designs["sized"]]
+        both = [
+            read_design_result(row, results / row["design"], settings) for row in designs["sized"]
+        ]
         named = {final.name: final for final, _ in both}
         return Sources(
             [final for final, _ in both],

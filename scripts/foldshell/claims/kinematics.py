@@ -4,17 +4,17 @@ from collections.abc import Mapping, Sequence
 from itertools import product
 from typing import Any
 
-from foldshell.claims.finding import FAILS, HOLDS, Finding, judge_difference
-from foldshell.claims.outcome import (
+from foldshell.claims.design_result import (
     Comparer,
-    Outcome,
-    choose,
-    choose_folded,
+    DesignResult,
     group_by_others,
+    select,
+    select_folded,
     state_fact,
 )
+from foldshell.claims.finding import FAILS, HOLDS, Finding, judge_difference
 from foldshell.claims.statement import Claim
-from foldshell.claims.words import say
+from foldshell.claims.words import verdict_label
 
 SOFT_SHAPES = {"twist", "saddle"}
 ISOMETRIC = 1e-6
@@ -45,7 +45,7 @@ def judge_auxetic(kinematics: Mapping[str, Any]) -> Claim:
 
 
 def judge_soft_modes(
-    kinematics: Mapping[str, Any], outcomes: Sequence[Outcome], comparer: Comparer
+    kinematics: Mapping[str, Any], design_results: Sequence[DesignResult], comparer: Comparer
 ) -> Claim:
     """C2: the two softest modes of each sheet, bending without distortion, strain of designs."""
     findings = []
@@ -57,7 +57,7 @@ def judge_soft_modes(
             part, verdict = f"{shape} costs distortion", judge_difference(*values, ISOMETRIC)
             names = "isometry residual, that of the saddle"
             findings.append(Finding(part, (name,), names, "-", values, ISOMETRIC, verdict))
-    for group in group_by_others(choose_folded(outcomes), "surface"):
+    for group in group_by_others(select_folded(design_results), "surface"):
         for surface, shape in (("paraboloid", "dome"), ("arch", "arch")):
             if {surface, "hypar"} <= set(group):
                 pair = group[surface], group["hypar"]
@@ -96,7 +96,7 @@ READING = (
 )
 
 
-def judge_strengths(kinematics: Mapping[str, Any]) -> Claim:
+def judge_force_ratios(kinematics: Mapping[str, Any]) -> Claim:
     """C3: self-stresses of rigid quadrilaterals; which strengths fold them, and triangles.
 
     Both engines have to agree; a note gives the verdict of each by itself.
@@ -111,15 +111,15 @@ def judge_strengths(kinematics: Mapping[str, Any]) -> Claim:
         stresses.append(Finding(CONSTRAINED, (name,), quantity, "-", values, 0.0, verdict))
     aside = tuple(_name_part(kind, "folded") for kind in KINDS)
     engines: dict[str, list[Mapping[str, Any]]] = {}
-    for row in kinematics["strengths"]:
-        engines.setdefault(say(row["engine"]), []).append(row)
+    for row in kinematics["force_ratios"]:
+        engines.setdefault(verdict_label(row["engine"]), []).append(row)
     shares, notes = [], [READING]
     for engine, rows in engines.items():
-        found = _find_strengths(engine, rows)
+        found = _find_force_ratios(engine, rows)
         shares += found
         alone, _ = Claim("C3", [*stresses, *found], open=aside).judge()
         most = max(row["iterations"] for row in rows)
-        words = f"{say(alone)}, from {len(rows)} foldings of at most {most} iterations"
+        words = f"{verdict_label(alone)}, from {len(rows)} foldings of at most {most} iterations"
         notes.append(f"By {engine} alone: {words}.")
     return Claim("C3", [*stresses, *shares], open=aside, notes=tuple(notes))
 
@@ -128,7 +128,7 @@ def _name_part(kind: str, measure: str) -> str:
     return f"{kind} {MEASURES[measure]} at {KINDS[kind]}"
 
 
-def _find_strengths(engine: str, rows: Sequence[Mapping[str, Any]]) -> list[Finding]:
+def _find_force_ratios(engine: str, rows: Sequence[Mapping[str, Any]]) -> list[Finding]:
     """Return the share of the strengths by which an engine folds each mesh on each surface."""
     found = []
     surfaces = dict.fromkeys(row["surface"] for row in rows)
@@ -144,13 +144,13 @@ def _find_strengths(engine: str, rows: Sequence[Mapping[str, Any]]) -> list[Find
     return found
 
 
-def judge_foldability(outcomes: Sequence[Outcome]) -> Claim:
+def judge_foldability(design_results: Sequence[DesignResult]) -> Claim:
     """C14: planarity, strain, sum of angles and Kawasaki's sum of every folded design.
 
     The designs folded as in the paper decide; the other modes stand beside the verdict.
     """
     findings, aside = [], []
-    for one in choose(outcomes, pattern="miura"):
+    for one in select(design_results, pattern="miura"):
         mode = one.row["fold_mode"]
         for name, quantities in RESPECTED.items():
             worst = max(quantities, key=lambda quantity: one.quality[quantity])

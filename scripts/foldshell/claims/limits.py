@@ -5,25 +5,25 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
-from foldshell.claims.finding import HOLDS, Finding, judge_many
-from foldshell.claims.outcome import (
+from foldshell.claims.design_result import (
     Comparer,
-    Outcome,
-    choose,
-    choose_folded,
+    DesignResult,
     group_by_others,
+    select,
+    select_folded,
     state_fact,
 )
+from foldshell.claims.finding import HOLDS, Finding, judge_many
 from foldshell.claims.statement import Claim
 
 
-def judge_buckling(outcomes: Sequence[Outcome], comparer: Comparer) -> Claim:
+def judge_buckling(design_results: Sequence[DesignResult], comparer: Comparer) -> Claim:
     """C10: mean utilization is low, and loads reach the buckling factor before strength.
 
     Low is below the lower limit of Table 3; strength is reached at the load factor 1 / utilization
     of the most utilized panel.
     """
-    designs = [_with_strength(one) for one in choose_folded(outcomes)]
+    designs = [_with_strength(one) for one in select_folded(design_results)]
     findings = []
     for one in designs:
         low = {"utilization_mean": comparer.utilization_min}
@@ -44,32 +44,33 @@ LOW = "utilization is low"
 NO_ERRORS = {name: (0.0, 0.0) for name in ("displacement", "utilization", "buckling")}
 
 
-def _with_strength(outcome: Outcome) -> Outcome:
+def _with_strength(design_result: DesignResult) -> DesignResult:
     """Add the load factor at which the mean of a panel reaches the strength."""
-    highest = outcome.values.get("utilization_panel_mean_max")
+    highest = design_result.values.get("utilization_panel_mean_max")
     return replace(
-        outcome, values={**outcome.values, "strength_factor": 1 / highest if highest else None}
+        design_result,
+        values={**design_result.values, "strength_factor": 1 / highest if highest else None},
     )
 
 
-def count_bindings(outcomes: Sequence[Outcome], comparer: Comparer) -> dict[str, int]:
+def count_bindings(design_results: Sequence[DesignResult], comparer: Comparer) -> dict[str, int]:
     """Return how many designs stand at each limit, one design perhaps at several."""
     found: Counter[str] = Counter()
-    for outcome in outcomes:
-        found.update(find_bindings(outcome, comparer))
+    for design_result in design_results:
+        found.update(find_bindings(design_result, comparer))
     return dict(sorted(found.items()))
 
 
-def find_bindings(outcome: Outcome, comparer: Comparer) -> list[str]:
+def find_bindings(design_result: DesignResult, comparer: Comparer) -> list[str]:
     """Return what keeps a design from being thinner: limits reached to 90 %, or least thickness."""
-    values, names = outcome.values, []
+    values, names = design_result.values, []
     if values["displacement"] is None:
         return [values["state"]]
-    if values["displacement"] > 0.9 * outcome.row["span_m"] / comparer.displacement_span_over:
+    if values["displacement"] > 0.9 * design_result.row["span_m"] / comparer.displacement_span_over:
         names.append("displacement")
     if values["utilization_panel_mean_max"] > 0.9:
         names.append("utilization of a panel")
-    if values["panels_at_bound"] == outcome.panel_count:
+    if values["panels_at_bound"] == design_result.panel_count:
         names.append("least thickness in every panel")
     factor = values["buckling_factor"]
     if factor is not None and factor < comparer.buckling_factor_min:
@@ -77,9 +78,9 @@ def find_bindings(outcome: Outcome, comparer: Comparer) -> list[str]:
     return names or ["none of these"]
 
 
-def judge_free_edges(outcomes: Sequence[Outcome]) -> Claim:
+def judge_free_edges(design_results: Sequence[DesignResult]) -> Claim:
     """C11: designs on two edges whose loop ends with panels above 1, and where these stand."""
-    designs = choose(choose_folded(outcomes), support=("zigzag", "strip"))
+    designs = select(select_folded(design_results), support=("zigzag", "strip"))
     many, place = "many do not reach utilization 1", "panels above 1 stand at free edges"
     findings = []
     for one in designs:
@@ -99,9 +100,9 @@ def judge_free_edges(outcomes: Sequence[Outcome]) -> Claim:
     return Claim("C11", findings, judges=judges, notes=(note,))
 
 
-def judge_deflected_edges(outcomes: Sequence[Outcome], comparer: Comparer) -> Claim:
+def judge_deflected_edges(design_results: Sequence[DesignResult], comparer: Comparer) -> Claim:
     """C12: largest downward displacement on the panels along free edges, and on all others."""
-    designs = choose(choose_folded(outcomes), support=("zigzag", "strip"))
+    designs = select(select_folded(design_results), support=("zigzag", "strip"))
     part = "more deflection along free edges"
     names = "displacement_edge", "displacement_inner"
     return Claim("C12", [comparer.compare_within(part, one, *names) for one in designs])
@@ -121,7 +122,9 @@ LARGE = (
 
 
 def judge_folds(
-    outcomes: Sequence[Outcome], flats: Mapping[str, Mapping[str, Any]], comparer: Comparer
+    design_results: Sequence[DesignResult],
+    flats: Mapping[str, Mapping[str, Any]],
+    comparer: Comparer,
 ) -> Claim:
     """C13: a sized folded sheet against the flat sheet with the same volume of material.
 
@@ -129,18 +132,18 @@ def judge_folds(
     its first-order displacement is compared and the finding holds: it does not stand.
     """
     findings, numbers = [], {}
-    for one in choose_folded(outcomes):
+    for one in select_folded(design_results):
         flat = flats.get(one.name)
         if flat is None:
             continue
-        other = Outcome({**one.row, "design": flat["flat"]}, flat["measures"], flat["errors"])
+        other = DesignResult({**one.row, "design": flat["flat"]}, flat["measures"], flat["errors"])
         found = comparer.compare(FOLDED, other, one, "displacement")
         stands = flat["measures"]["displacement"] is not None
         findings.append(found if stands else _fallen(found, flat))
         numbers[one.name] = {name: flat[name] for name in NUMBERS}
     findings += [
         comparer.compare(SIZED, group["flat"], group["miura"], "volume")
-        for group in group_by_others(outcomes, "pattern")
+        for group in group_by_others(design_results, "pattern")
         if {"flat", "miura"} <= set(group)
     ]
     notes = (UNFOLDED, LARGE, *_describe_ratio(findings))

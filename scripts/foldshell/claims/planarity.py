@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from foldshell.claims.outcome import Outcome, choose_folded
+from foldshell.claims.design_result import DesignResult, select_folded
 from foldshell.results.correlation import linear_correlation, rank_correlation
 
 STRONG, WEAK = 0.5, 0.3
@@ -21,13 +21,13 @@ SIZED = (
 )
 
 
-def describe_planarity(outcomes: Sequence[Outcome]) -> dict[str, Any]:
+def describe_planarity(design_results: Sequence[DesignResult]) -> dict[str, Any]:
     """Return Spearman's and Pearson's correlation of planarity and mean utilization of panels.
 
     Of each design, of all panels pooled, and pooled by surface. Within a design loads and supports
     are one; pooled numbers mix designs of different utilization.
     """
-    designs = [one for one in choose_folded(outcomes) if one.panels is not None]
+    designs = [one for one in select_folded(design_results) if one.panels is not None]
     each = {one.name: _correlate(one.panels) for one in designs}
     surfaces = dict.fromkeys(one.row["surface"] for one in designs)
     pooled = {

@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from foldshell.claims.design_result import DesignResult
 from foldshell.claims.measures import Layout, measure_depth, measure_state
-from foldshell.claims.outcome import Outcome
 from foldshell.files.whole import read_arrays, read_json
 from foldshell.pattern.angles import flat_foldability_residual
 from foldshell.pattern.grid import build_grid
@@ -21,7 +21,7 @@ def make_layout(row: Mapping[str, Any]) -> Layout:
     return Layout(row["zigzag"], row["strip"], row["support"])
 
 
-def read_fold(row: Mapping[str, Any], folder: str | Path) -> Outcome:
+def read_fold(row: Mapping[str, Any], folder: str | Path) -> DesignResult:
     """Read what the folding alone says of a design."""
     folded = read_arrays(Path(folder, "folded/folded.npz"))
     quality = read_json(Path(folder, "folded/quality.json"))
@@ -31,12 +31,12 @@ def read_fold(row: Mapping[str, Any], folder: str | Path) -> Outcome:
         residual = flat_foldability_residual(folded["vertices"], build_grid(*size))
         quality["flat_foldability_max_rad"] = float(np.abs(residual).max())
         values["depth"] = measure_depth(folded["vertices"], *size)
-    return Outcome(row, values, quality=quality)
+    return DesignResult(row, values, quality=quality)
 
 
-def read_outcome(
+def read_design_result(
     row: Mapping[str, Any], folder: str | Path, settings: Mapping[str, Any]
-) -> tuple[Outcome, Outcome]:
+) -> tuple[DesignResult, DesignResult]:
     """Read the final state of a design, and its state at the start, of one thickness."""
     folder = Path(folder)
     fold = read_fold(row, folder)
@@ -61,9 +61,9 @@ def read_outcome(
     return replace(states[0], errors=errors), replace(states[1], errors=errors)
 
 
-def read_variant(outcome: Outcome, report: Mapping[str, Any]) -> Outcome:
-    """Return the outcome under another setting, with the relative errors of the design."""
-    return replace(outcome, values={**outcome.values, **report["measures"]})
+def read_variant(design_result: DesignResult, report: Mapping[str, Any]) -> DesignResult:
+    """Return the result under another setting, with the relative errors of the design."""
+    return replace(design_result, values={**design_result.values, **report["measures"]})
 
 
 def read_errors(folder: Path, chosen: Mapping[str, Any]) -> Errors:

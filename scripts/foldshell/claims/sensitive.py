@@ -5,13 +5,13 @@ from dataclasses import replace
 from typing import Any
 
 from foldshell.claims import limits, structure
+from foldshell.claims.design_result import Comparer, DesignResult
 from foldshell.claims.finding import UNTOLD
-from foldshell.claims.outcome import Comparer, Outcome
 from foldshell.claims.statement import Claim
-from foldshell.claims.words import say
+from foldshell.claims.words import verdict_label
 
 BASE = "base"
-Judgement = Callable[[Sequence[Outcome], Comparer], Claim]
+Judgement = Callable[[Sequence[DesignResult], Comparer], Claim]
 SENSITIVE: dict[str, Judgement] = {
     "C4": structure.judge_curvature,
     "C5": structure.judge_material,
@@ -20,14 +20,14 @@ SENSITIVE: dict[str, Judgement] = {
     "C8": structure.judge_zigzags,
     "C9": structure.judge_strips,
     "C10": limits.judge_buckling,
-    "C11": lambda outcomes, comparer: limits.judge_free_edges(outcomes),
+    "C11": lambda design_results, comparer: limits.judge_free_edges(design_results),
     "C12": limits.judge_deflected_edges,
 }
 """Claims that settings of the loop enter."""
 
 
 def judge_variants(
-    key: str, variants: Mapping[str, Sequence[Outcome]], comparer: Comparer
+    key: str, variants: Mapping[str, Sequence[DesignResult]], comparer: Comparer
 ) -> dict[str, Any] | None:
     """Return the verdicts of a claim under every variant, on the designs that were run.
 
@@ -35,7 +35,9 @@ def judge_variants(
     """
     if key not in SENSITIVE:
         return None
-    claims = {name: SENSITIVE[key](outcomes, comparer) for name, outcomes in variants.items()}
+    claims = {
+        name: SENSITIVE[key](design_results, comparer) for name, design_results in variants.items()
+    }
     if BASE not in claims or not claims[BASE].findings:
         return None
     verdicts = {}
@@ -62,7 +64,7 @@ def _find_changes(base: Mapping[str, Any], found: Mapping[str, Any]) -> dict[str
 
 
 def judge_equal_thickness(
-    key: str, equal: Sequence[Outcome], comparer: Comparer
+    key: str, equal: Sequence[DesignResult], comparer: Comparer
 ) -> dict[str, Any] | None:
     """Return the verdicts of a claim on the start states, all panels of one thickness.
 
@@ -80,7 +82,7 @@ def describe_dependence(
     claim: Claim,
     runs: Mapping[str, Any] | None,
     equal: Mapping[str, Any] | None,
-    variants: Mapping[str, Sequence[Outcome]],
+    variants: Mapping[str, Sequence[DesignResult]],
 ) -> str:
     """Say in words how far a verdict depends on the settings."""
     words = []
@@ -91,22 +93,22 @@ def describe_dependence(
     else:
         base, changes = runs["verdicts"][BASE]["verdict"], runs["changes"]
         count = len(runs["designs"])
-        words.append(f"On the {count} designs run with other settings: {say(base)}")
+        words.append(f"On the {count} designs run with other settings: {verdict_label(base)}")
         same = [name for name in runs["verdicts"] if name != BASE and name not in changes]
         if same:
             words[-1] += f", with the same verdicts of all parts for {', '.join(same)}"
         changed = [
-            f"with {name} " + ", ".join(f"{part}: {say(v)}" for part, v in found.items())
+            f"with {name} " + ", ".join(f"{part}: {verdict_label(v)}" for part, v in found.items())
             for name, found in changes.items()
         ]
         words[-1] += f"; {'; '.join(changed)}." if changed else "."
     if equal is not None and equal["verdict"] != UNTOLD:
-        parts = ", ".join(f"{part}: {say(v)}" for part, v in equal["parts"].items())
+        parts = ", ".join(f"{part}: {verdict_label(v)}" for part, v in equal["parts"].items())
         words.append(f"At one thickness for all panels, before any sizing: {parts}.")
     return " ".join(words)
 
 
-def _spread(variants: Mapping[str, Sequence[Outcome]]) -> str:
+def _spread(variants: Mapping[str, Sequence[DesignResult]]) -> str:
     """Return how much volumes change between those runs, for a reader to weigh differences by."""
     base = {one.name: one.values["volume"] for one in variants.get(BASE, ())}
     changes = {

@@ -3,20 +3,20 @@
 from collections.abc import Mapping, Sequence
 from itertools import combinations
 
-from foldshell.claims.finding import Finding
-from foldshell.claims.outcome import (
+from foldshell.claims.design_result import (
     Comparer,
-    Outcome,
-    choose,
-    choose_folded,
+    DesignResult,
     group_by_others,
     pair_neighbours,
+    select,
+    select_folded,
 )
+from foldshell.claims.finding import Finding
 from foldshell.claims.statement import Claim
 
 
 def _compare_pairs(
-    pairs: Sequence[tuple[Outcome, Outcome]],
+    pairs: Sequence[tuple[DesignResult, DesignResult]],
     comparer: Comparer,
     parts: Mapping[str, tuple[str, int]],
 ) -> list[Finding]:
@@ -28,20 +28,20 @@ def _compare_pairs(
     ]
 
 
-def judge_curvature(outcomes: Sequence[Outcome], comparer: Comparer) -> Claim:
+def judge_curvature(design_results: Sequence[DesignResult], comparer: Comparer) -> Claim:
     """C4: of two heights over one span, the lower is better used and deflects more."""
     parts = {"better utilization": ("utilization_mean", 0), "more deflection": ("displacement", 0)}
-    pairs = pair_neighbours(choose_folded(outcomes), "height_m")
+    pairs = pair_neighbours(select_folded(design_results), "height_m")
     note = "Table 1 varies the height of the paraboloid and the arch only, not of the hypar."
     return Claim("C4", _compare_pairs(pairs, comparer, parts), notes=(note,))
 
 
-def judge_material(outcomes: Sequence[Outcome], comparer: Comparer) -> Claim:
+def judge_material(design_results: Sequence[DesignResult], comparer: Comparer) -> Claim:
     """C5: volume per area rises with the height of folded sheets, not with that of smooth ones."""
     parts = {"folded: more material": ("volume_per_area", 1)}
-    pairs = pair_neighbours(choose_folded(outcomes), "height_m")
+    pairs = pair_neighbours(select_folded(design_results), "height_m")
     findings = _compare_pairs(pairs, comparer, parts)
-    smooth = choose(outcomes, pattern="smooth")
+    smooth = select(design_results, pattern="smooth")
     findings += [
         comparer.compare("smooth: no more", lower, higher, "volume_per_area", strict=False)
         for lower, higher in pair_neighbours(smooth, "height_m")
@@ -49,10 +49,10 @@ def judge_material(outcomes: Sequence[Outcome], comparer: Comparer) -> Claim:
     return Claim("C5", findings)
 
 
-def judge_surfaces(outcomes: Sequence[Outcome], comparer: Comparer) -> Claim:
+def judge_surfaces(design_results: Sequence[DesignResult], comparer: Comparer) -> Claim:
     """C6: volume per area of paraboloid, arch and hypar with all else equal."""
     names = ("paraboloid", "arch", "hypar")
-    groups = group_by_others(choose_folded(outcomes), "surface")
+    groups = group_by_others(select_folded(design_results), "surface")
     groups = [group for group in groups if set(names) <= set(group)]
     findings = [
         comparer.compare(f"{more} above {less}", group[more], group[less], "volume_per_area")
@@ -80,43 +80,47 @@ NAMES = (
 
 
 def judge_supports(
-    outcomes: Sequence[Outcome], comparer: Comparer, equal: Sequence[Outcome] = ()
+    design_results: Sequence[DesignResult], comparer: Comparer, equal: Sequence[DesignResult] = ()
 ) -> Claim:
     """C7: strip edges supported against zig-zag edges supported, with all else equal.
 
     `equal` are the same designs at one thickness, which shows the stronger axis itself.
     """
-    findings = _compare_pairs(_pair_supports(outcomes), comparer, SUPPORT_PARTS)
+    findings = _compare_pairs(_pair_supports(design_results), comparer, SUPPORT_PARTS)
     findings += _compare_pairs(_pair_supports(equal), comparer, STRONGER_AXIS)
     return Claim("C7", findings, notes=(NAMES,))
 
 
-def _pair_supports(outcomes: Sequence[Outcome]) -> list[tuple[Outcome, Outcome]]:
+def _pair_supports(
+    design_results: Sequence[DesignResult],
+) -> list[tuple[DesignResult, DesignResult]]:
     """Return (on strip edges, on zig-zag edges) with all else equal."""
     return [
         (group["strip"], group["zigzag"])
-        for group in group_by_others(choose_folded(outcomes), "support")
+        for group in group_by_others(select_folded(design_results), "support")
         if {"strip", "zigzag"} <= set(group)
     ]
 
 
 def judge_zigzags(
-    outcomes: Sequence[Outcome], comparer: Comparer, equal: Sequence[Outcome] = ()
+    design_results: Sequence[DesignResult], comparer: Comparer, equal: Sequence[DesignResult] = ()
 ) -> Claim:
     """C8: of two counts of zig-zags, the lower gives the deeper section and deflects less."""
     parts = {"deeper section": ("depth", 0), "less deflection": ("displacement", 1)}
     aside = {"less deflection at equal thickness": ("displacement", 1)}
-    findings = _compare_pairs(pair_neighbours(choose_folded(outcomes), "zigzag"), comparer, parts)
-    findings += _compare_pairs(pair_neighbours(choose_folded(equal), "zigzag"), comparer, aside)
+    findings = _compare_pairs(
+        pair_neighbours(select_folded(design_results), "zigzag"), comparer, parts
+    )
+    findings += _compare_pairs(pair_neighbours(select_folded(equal), "zigzag"), comparer, aside)
     return Claim("C8", findings, open=tuple(aside))
 
 
-def judge_strips(outcomes: Sequence[Outcome], comparer: Comparer) -> Claim:
+def judge_strips(design_results: Sequence[DesignResult], comparer: Comparer) -> Claim:
     """C9: of two counts of strips, the higher gives smaller panels, more evenly utilized."""
     aside = {"higher mean utilization": ("utilization_mean", 1)}
     parts = {
         "smaller panels": ("panel_area", 0),
         "more even utilization": ("utilization_variation", 0),
     } | aside
-    pairs = pair_neighbours(choose_folded(outcomes), "strip")
+    pairs = pair_neighbours(select_folded(design_results), "strip")
     return Claim("C9", _compare_pairs(pairs, comparer, parts), open=tuple(aside))

@@ -5,7 +5,7 @@ from typing import Any
 
 from foldshell.claims import kinematics as folding
 from foldshell.claims import limits, structure
-from foldshell.claims.outcome import Comparer, Outcome
+from foldshell.claims.design_result import Comparer, DesignResult
 from foldshell.claims.planarity import describe_planarity
 from foldshell.claims.sensitive import (
     SENSITIVE,
@@ -14,7 +14,7 @@ from foldshell.claims.sensitive import (
     judge_variants,
 )
 from foldshell.claims.statement import Claim, describe_claim
-from foldshell.claims.words import make_table, show
+from foldshell.claims.words import format_value, make_table
 
 SPREAD_KEYS = (
     "state",
@@ -37,64 +37,64 @@ SPREAD_KEYS = (
 
 
 def judge_study(
-    outcomes: Sequence[Outcome],
-    equal: Sequence[Outcome],
-    folds: Sequence[Outcome],
+    design_results: Sequence[DesignResult],
+    equal: Sequence[DesignResult],
+    folds: Sequence[DesignResult],
     kinematics: Mapping[str, Any],
     flats: Mapping[str, Mapping[str, Any]],
-    variants: Mapping[str, Sequence[Outcome]],
+    variants: Mapping[str, Sequence[DesignResult]],
     comparer: Comparer,
 ) -> list[dict[str, Any]]:
     """Return the entries of claims.json: C1 to C14, then what the paper left open.
 
     Parameters
     ----------
-    outcomes, equal : final states, and those at the start with one thickness for all panels
+    design_results, equal : final states, and those at the start with one thickness for all panels
     folds : designs of which only the folding counts
     flats : what the flat sheet of equal volume does, by folded design
-    variants : outcomes under other settings, by variant
+    variants : design_results under other settings, by variant
     """
-    geometries = choose_geometries([*outcomes, *folds])
+    geometries = choose_geometries([*design_results, *folds])
     claims = [
         folding.judge_auxetic(kinematics),
         folding.judge_soft_modes(kinematics, geometries, comparer),
-        folding.judge_strengths(kinematics),
-        structure.judge_curvature(outcomes, comparer),
-        structure.judge_material(outcomes, comparer),
-        structure.judge_surfaces(outcomes, comparer),
-        structure.judge_supports(outcomes, comparer, equal),
-        structure.judge_zigzags(outcomes, comparer, equal),
-        structure.judge_strips(outcomes, comparer),
-        limits.judge_buckling(outcomes, comparer),
-        limits.judge_free_edges(outcomes),
-        limits.judge_deflected_edges(outcomes, comparer),
-        limits.judge_folds(outcomes, flats, comparer),
+        folding.judge_force_ratios(kinematics),
+        structure.judge_curvature(design_results, comparer),
+        structure.judge_material(design_results, comparer),
+        structure.judge_surfaces(design_results, comparer),
+        structure.judge_supports(design_results, comparer, equal),
+        structure.judge_zigzags(design_results, comparer, equal),
+        structure.judge_strips(design_results, comparer),
+        limits.judge_buckling(design_results, comparer),
+        limits.judge_free_edges(design_results),
+        limits.judge_deflected_edges(design_results, comparer),
+        limits.judge_folds(design_results, flats, comparer),
         folding.judge_foldability(geometries),
     ]
-    described = [_describe(claim, outcomes, equal, variants, comparer) for claim in claims]
-    return [*described, describe_planarity(outcomes)]
+    described = [_describe(claim, design_results, equal, variants, comparer) for claim in claims]
+    return [*described, describe_planarity(design_results)]
 
 
-def _describe(claim: Claim, outcomes, equal, variants, comparer: Comparer) -> dict[str, Any]:
+def _describe(claim: Claim, design_results, equal, variants, comparer: Comparer) -> dict[str, Any]:
     entry = describe_claim(claim)
     runs = judge_variants(claim.key, variants, comparer)
     level = judge_equal_thickness(claim.key, equal, comparer)
     words = describe_dependence(claim, runs, level, variants)
     if claim.key in SENSITIVE:
-        words += _describe_states([one for one in outcomes if one.name in entry["designs"]])
+        words += _describe_states([one for one in design_results if one.name in entry["designs"]])
     return entry | {"sensitivity": {"words": words, "runs": runs, "equal_thickness": level}}
 
 
-def _describe_states(outcomes: Sequence[Outcome]) -> str:
+def _describe_states(design_results: Sequence[DesignResult]) -> str:
     """Say how many designs hang on the least thickness alone, and which did not settle."""
-    names = {state: [o.name for o in outcomes if o.values["state"] == state]
+    names = {state: [o.name for o in design_results if o.values["state"] == state]
              for state in ("at_minimum_thickness", "not_converged", "unstable")}  # fmt: skip
     thin = len(names["at_minimum_thickness"])
     words = (
-        f" {thin} of {len(outcomes)} designs stand at the least thickness in every panel, which "
-        "alone then sets volume and utilization."
+        f" {thin} of {len(design_results)} designs stand at the least thickness in every panel, "
+        "which alone then sets volume and utilization."
         if thin
-        else f" None of {len(outcomes)} designs stands at the least thickness in every panel."
+        else f" None of {len(design_results)} designs stands at the least thickness in every panel."
     )
     unsettled = names["not_converged"] + names["unstable"]
     if unsettled:
@@ -102,16 +102,16 @@ def _describe_states(outcomes: Sequence[Outcome]) -> str:
     return words
 
 
-def choose_geometries(outcomes: Sequence[Outcome]) -> list[Outcome]:
+def choose_geometries(design_results: Sequence[DesignResult]) -> list[DesignResult]:
     """Return one design of each folded geometry; supports do not matter to it."""
     names = ("pattern", "surface", "span_m", "height_m", "zigzag", "strip", "fold_mode")
-    found: dict[tuple, Outcome] = {}
-    for outcome in outcomes:
-        found.setdefault(tuple(outcome.row[name] for name in names), outcome)
+    found: dict[tuple, DesignResult] = {}
+    for design_result in design_results:
+        found.setdefault(tuple(design_result.row[name] for name in names), design_result)
     return list(found.values())
 
 
-def list_runs(variants: Mapping[str, Sequence[Outcome]]) -> list[dict[str, Any]]:
+def list_runs(variants: Mapping[str, Sequence[DesignResult]]) -> list[dict[str, Any]]:
     """Return a row a run with other settings: design, variant, measures, volume over base."""
     base = {one.name: one.values["volume"] for one in variants.get("base", ())}
     return [
@@ -121,26 +121,28 @@ def list_runs(variants: Mapping[str, Sequence[Outcome]]) -> list[dict[str, Any]]
             "volume_over_base": one.values["volume"] / base[one.name] if one.name in base else None,
             **{key: one.values[key] for key in SPREAD_KEYS},
         }
-        for variant, outcomes in variants.items()
-        for one in outcomes
+        for variant, design_results in variants.items()
+        for one in design_results
     ]
 
 
 def write_spread(
-    variants: Mapping[str, Sequence[Outcome]], outcomes: Sequence[Outcome], words: Mapping[str, str]
+    variants: Mapping[str, Sequence[DesignResult]],
+    design_results: Sequence[DesignResult],
+    words: Mapping[str, str],
 ) -> str:
-    """Return the section on volumes under other settings: one row a design, a column a variant.
+    """Return the section on volumes under other settings: one row per design, a column a variant.
 
     It says for how many designs the run in memory ends where the loop in files did.
     """
-    final = {one.name: one.values["volume"] for one in outcomes}
+    final = {one.name: one.values["volume"] for one in design_results}
     base = variants.get("base", ())
     same = sum(one.values["volume"] == final.get(one.name) for one in base)
     volume = {name: {one.name: one for one in members} for name, members in variants.items()}
     rows = []
     for one in base:
         cells = [volume[name].get(one.name) for name in variants]
-        shown = [f"{show(c.values['volume'])} {MARKS[c.values['state']]}" if c else "-"
+        shown = [f"{format_value(c.values['volume'])} {MARKS[c.values['state']]}" if c else "-"
                  for c in cells]  # fmt: skip
         rows.append([one.name, *shown])
     meaning = "".join(f"- `{name}`: {words[name]}\n" for name in variants)

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
-from foldshell.claims.outcome import QUANTITIES
+from foldshell.claims.design_result import QUANTITIES
 
 HEAD = """# Claims
 
@@ -17,7 +17,7 @@ Sensitivity, by names that the last section explains. docs/study.md explains the
 
 def write_claims(claims: Sequence[Mapping[str, Any]], spread: str) -> str:
     """Return the page: an overview, a section a claim, and how volumes depend on settings."""
-    rows = [[claim["id"], claim["claim"], say(claim["verdict"])] for claim in claims]
+    rows = [[claim["id"], claim["claim"], verdict_label(claim["verdict"])] for claim in claims]
     parts = [HEAD, make_table(["id", "claim", "verdict"], rows)]
     parts += [write_section(claim) for claim in claims]
     return "\n".join([*parts, spread])
@@ -25,7 +25,7 @@ def write_claims(claims: Sequence[Mapping[str, Any]], spread: str) -> str:
 
 def write_section(claim: Mapping[str, Any]) -> str:
     """Return one claim: verdict, parts, numbers, uncertainty, sensitivity."""
-    lines = [f"## {claim['id']}: {say(claim['verdict'])}", "", f"{claim['claim']}.", ""]
+    lines = [f"## {claim['id']}: {verdict_label(claim['verdict'])}", "", f"{claim['claim']}.", ""]
     numbers = claim["numbers"]
     if "findings" in numbers:
         lines += [write_parts(numbers["parts"]), *write_findings(numbers["findings"])]
@@ -51,7 +51,7 @@ def write_parts(parts: Iterable[Mapping[str, Any]]) -> str:
         [
             part["part"] + ("" if part["asserted"] else " (beside the claim)"),
             *(str(part[name]) for name in ("holds", "fails", "cannot_be_told")),
-            say(part["verdict"]),
+            verdict_label(part["verdict"]),
         ]
         for part in parts
     ]
@@ -59,7 +59,7 @@ def write_parts(parts: Iterable[Mapping[str, Any]]) -> str:
 
 
 def write_findings(findings: Sequence[Mapping[str, Any]]) -> list[str]:
-    """Return tables with a row a design or pair and a column a part.
+    """Return tables with one row per design or pair and a column a part.
 
     Rows that have the same columns share a table: the same parts, quantities and limits.
     """
@@ -77,7 +77,7 @@ def write_findings(findings: Sequence[Mapping[str, Any]]) -> list[str]:
 
 def _describe_column(finding: Mapping[str, Any]) -> str:
     unit, factor = _unit(finding)
-    limit = f", limit {show(finding['values'][1], factor)}" if _has_limit(finding) else ""
+    limit = f", limit {format_value(finding['values'][1], factor)}" if _has_limit(finding) else ""
     return f"{finding['part']}: {name_quantity(finding['quantity'])} [{unit}]{limit}"
 
 
@@ -103,10 +103,10 @@ def _write_cell(finding: Mapping[str, Any], order: Sequence[str]) -> str:
     if list(finding["designs"]) != list(order):
         values.reverse()
     shown = values[:1] if _has_limit(finding) else values
-    numbers = " / ".join(show(value, factor) for value in shown)
+    numbers = " / ".join(format_value(value, factor) for value in shown)
     if finding["uncertainty"]:
         numbers += f" ± {finding['uncertainty'] * factor:.2g}"
-    return f"{numbers}: {say(finding['verdict'])}"
+    return f"{numbers}: {verdict_label(finding['verdict'])}"
 
 
 def join_names(names: Sequence[str]) -> str:
@@ -139,7 +139,7 @@ def write_correlations(numbers: Mapping[str, Any]) -> str:
 
 
 def _correlation(value: Mapping[str, Any]) -> list[str]:
-    return [str(value["panels"]), show(value["spearman"]), show(value["pearson"])]
+    return [str(value["panels"]), format_value(value["spearman"]), format_value(value["pearson"])]
 
 
 def write_flat(flats: Mapping[str, Mapping[str, Any]]) -> str:
@@ -151,11 +151,11 @@ def write_flat(flats: Mapping[str, Mapping[str, Any]]) -> str:
             name,
             flat["flat"],
             " x ".join(f"{side:.4g}" for side in flat["sides_m"]),
-            show(flat["thickness_m"], 1e3),
-            show(flat["volume_m3"]),
+            format_value(flat["thickness_m"], 1e3),
+            format_value(flat["volume_m3"]),
             flat["state"],
-            show(flat["displacement_first_order_m"]),
-            show(flat["measures"]["utilization_panel_mean_max"]),
+            format_value(flat["displacement_first_order_m"]),
+            format_value(flat["measures"]["utilization_panel_mean_max"]),
         ]
         for name, flat in flats.items()
     ]
@@ -168,11 +168,11 @@ def make_table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     return "\n".join(f"| {' | '.join(line)} |" for line in lines) + "\n"
 
 
-def show(value: float | None, factor: float = 1.0) -> str:
+def format_value(value: float | None, factor: float = 1.0) -> str:
     """Return a number with four significant digits, a dash for none."""
     return "-" if value is None else f"{value * factor:.4g}"
 
 
-def say(verdict: str) -> str:
+def verdict_label(verdict: str) -> str:
     """Return a verdict in words."""
     return verdict.replace("_", " ")

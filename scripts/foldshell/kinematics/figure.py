@@ -21,7 +21,7 @@ def draw_kinematics(path: str | Path, table: dict[str, Any]) -> None:
     _draw_ratios(axes[0, 0], table)
     _draw_isometries(axes[0, 1], table["sheets"])
     for axis, kind in zip(axes[1], ("quadrilaterals", "triangles"), strict=True):
-        _draw_strengths(axis, table["strengths"], kind)
+        _draw_force_ratios(axis, table["force_ratios"], kind)
     with atomic_path(path) as temporary:
         figure.savefig(temporary, dpi=110, metadata={"Software": None})
 
@@ -58,7 +58,7 @@ def _draw_isometries(axis, sheets: list[dict[str, Any]]) -> None:
     axis.legend(title="zig-zags x strips")
 
 
-def _draw_strengths(axis, rows: list[dict[str, Any]], kind: str) -> None:
+def _draw_force_ratios(axis, rows: list[dict[str, Any]], kind: str) -> None:
     """One mark a trial: shape by surface, colour by outcome, hollow for the explicit engine."""
     rows = [row for row in rows if row["panels"] == kind]
     for surface, mark in (("paraboloid", "o"), ("hypar", "^")):

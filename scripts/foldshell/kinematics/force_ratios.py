@@ -56,7 +56,7 @@ class Trial:
     folded: bool
 
 
-def sweep_strengths(
+def sweep_force_ratios(
     sheet: Sheet,
     target: Target,
     settings: FoldSettings,
@@ -67,10 +67,10 @@ def sweep_strengths(
     for kind in PANELS:
         for attraction in attractions:
             for panel in panels:
-                yield try_strengths(sheet, target, settings, kind, attraction, panel)
+                yield try_force_ratios(sheet, target, settings, kind, attraction, panel)
 
 
-def try_strengths(
+def try_force_ratios(
     sheet: Sheet,
     target: Target,
     settings: FoldSettings,

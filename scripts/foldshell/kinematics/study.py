@@ -7,7 +7,7 @@ from typing import Any
 
 from foldshell.folding.settings import FoldSettings
 from foldshell.folding.targets import make_target
-from foldshell.kinematics.force_ratios import sweep_strengths
+from foldshell.kinematics.force_ratios import sweep_force_ratios
 from foldshell.kinematics.mechanism import (
     count_mechanisms,
     find_soft_modes,
@@ -50,7 +50,7 @@ def study_sheet(sector_angle: float, zigzags: int, strips: int) -> dict[str, Any
     }
 
 
-def study_strengths(
+def study_force_ratios(
     span: float,
     height: float,
     sector_angle: float,
@@ -64,6 +64,6 @@ def study_strengths(
         target = make_target(surface, span, height)
         angle = math.degrees(sector_angle)
         sheet = design_sheet("miura", target.section_lengths(), 15, 16, angle, 0)
-        trials = sweep_strengths(sheet, target, settings, attractions, panels)
+        trials = sweep_force_ratios(sheet, target, settings, attractions, panels)
         rows += [{"surface": surface, **asdict(trial)} for trial in trials]
     return rows

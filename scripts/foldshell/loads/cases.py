@@ -25,7 +25,7 @@ def surface_loads(
     thickness: np.ndarray,
     unit_weight: float,
     loads: Loads,
-    bare: np.ndarray | None = None,
+    self_weight_only: np.ndarray | None = None,
 ) -> np.ndarray:
     """Return the load of each case on each element, (E, 3, 5) kN per m2 of mesh.
 
@@ -36,7 +36,7 @@ def surface_loads(
     ----------
     normal : (E, 3) unit normals
     thickness : (E,) m
-    bare : (E,) bool, elements that carry nothing but their own weight; by default none
+    self_weight_only : (E,) bool, elements that carry nothing but their own weight; by default none
     """
     result = np.zeros((len(normal), 3, len(LOAD_CASES)))
     share = np.abs(normal[:, 2]) if loads.area_basis == "plan" else np.ones(len(normal))
@@ -44,8 +44,8 @@ def surface_loads(
     result[:, :, 1] = -loads.superimposed_dead * normal
     result[:, 2, 2] = -loads.live * share
     result[:, 0, 3] = result[:, 1, 4] = loads.wind * loads.wind_fraction * share
-    if bare is not None:
-        result[bare, :, 1:] = 0
+    if self_weight_only is not None:
+        result[self_weight_only, :, 1:] = 0
     return result
 
 

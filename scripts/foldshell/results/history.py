@@ -47,7 +47,7 @@ def make_history(
     displacement_limit: float | None = None,
     edited: Sequence[int] = (),
 ) -> list[dict[str, Any]]:
-    """Return one row an iteration from the contents of its `analysis.json`.
+    """Return one row per iteration from the contents of its `analysis.json`.
 
     `thicknesses` are those that each analysis read (m), `displacement_limit` is in m, and
     `edited` holds the iterations whose workbook a person has changed.

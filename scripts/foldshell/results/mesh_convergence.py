@@ -170,11 +170,11 @@ def _analyse(mesh, folded, support, edge_beam, panel_thickness, material, loads,
     model = build_model(
         mesh_from_arrays(arrays), held, material.poissons_ratio, fixed_thickness=fixed
     )
-    thickness = model.spread(panel_thickness)
+    thickness = model.to_elements(panel_thickness)
     result = analyse_shell(model, thickness, material, loads, combinations)
     if result.state == "mechanism":
         raise MechanismError(result.reason)
-    first = replace(result, displacement=result.linear, second_order=None)
+    first = replace(result, displacement=result.first_order, second_order=None)
     values = _measure(model, first, thickness, material)
     for column, name in enumerate(result.names):
         factor = float(result.buckling.factors[column]) if result.buckling else 0.0

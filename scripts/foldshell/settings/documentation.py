@@ -72,7 +72,7 @@ def _designs_section() -> str:
     )
     return (
         "## `designs.tsv`\n\n"
-        "Columns with tabs between, one row a design, lines that begin with # are remarks. Only\n"
+        "Columns with tabs between, one row per design, lines that begin with # are remarks. Only\n"
         "`design` is needed; a column left out, or an empty cell, takes its value from `defaults`."
         "\n\n| column | unit | allowed | meaning |\n|---|---|---|---|\n" + rows
     )

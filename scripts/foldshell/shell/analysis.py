@@ -59,11 +59,11 @@ class ShellModel:
         return int(self.mesh.panel.max()) + 1 - len(self.fixed_thickness)
 
     @property
-    def bare(self) -> np.ndarray:
+    def self_weight_only(self) -> np.ndarray:
         """Whether each element carries nothing but its own weight, (E,) bool."""
         return self.mesh.panel >= self.sized_panels
 
-    def spread(self, thickness: np.ndarray) -> np.ndarray:
+    def to_elements(self, thickness: np.ndarray) -> np.ndarray:
         """Return the thickness of each element (E,) from that of the sized panels (P,), m."""
         return np.concatenate([thickness, self.fixed_thickness])[self.mesh.panel]
 
@@ -78,24 +78,24 @@ class AnalysisResult:
         or "not_converged"; `reason` says more
     names : combination names; c of them
     displacement : (dofs, c) m and rad, second order where asked for
-    linear : (dofs, c) first order
+    first_order : (dofs, c) displacement of first order
     loads : (dofs, c) kN
     buckling : factors and modes (free, c), or None
     second_order : iterations and residual, or None
-    place : node that moves most in a mechanism, else None
-    initial : (dofs,) initial shape in m and rad, or None
+    mechanism_node : node that moves most in a mechanism, else None
+    imperfection : (dofs,) initial shape in m and rad, or None
     """
 
     state: str
     reason: str
     names: tuple[str, ...]
     displacement: np.ndarray
-    linear: np.ndarray
+    first_order: np.ndarray
     loads: np.ndarray
     buckling: BucklingResult | None = None
     second_order: SecondOrderResult | None = None
-    place: int | None = None
-    initial: np.ndarray | None = None
+    mechanism_node: int | None = None
+    imperfection: np.ndarray | None = None
 
 
 def build_model(
@@ -154,7 +154,11 @@ def analyse_shell(
     options = options or AnalysisOptions()
     names = tuple(combinations)
     surface = surface_loads(
-        model.operators.geometry.frame[:, 2], thickness, material.unit_weight, loads, model.bare
+        model.operators.geometry.frame[:, 2],
+        thickness,
+        material.unit_weight,
+        loads,
+        model.self_weight_only,
     )
     cases = nodal_forces(model.operators, surface)
     factors = combination_matrix(combinations)
@@ -179,7 +183,7 @@ def analyse_shell(
     displacement[model.pattern.dofs] = second.displacement
     state, reason = _judge(names, second, buckling)
     return AnalysisResult(
-        state, reason, names, displacement, linear, total, buckling, second, initial=initial
+        state, reason, names, displacement, linear, total, buckling, second, imperfection=initial
     )
 
 
@@ -281,4 +285,4 @@ def _mechanism(model, names, loads, values, solver) -> AnalysisResult:
         node = int(moved.argmax())
         x, y, z = model.mesh.nodes[node]
         reason += f": a mechanism moves most at node {node}, ({x:.3f}, {y:.3f}, {z:.3f}) m"
-    return AnalysisResult("mechanism", reason, names, nothing, nothing, loads, place=node)
+    return AnalysisResult("mechanism", reason, names, nothing, nothing, loads, mechanism_node=node)

@@ -17,12 +17,12 @@ def panel_area(model: ShellModel) -> np.ndarray:
 
 def panels_beside_strips(model: ShellModel) -> np.ndarray:
     """Return the sized panel (B,) from whose border each strip of an edge beam hangs."""
-    mesh, bare = model.mesh, model.bare
+    mesh, self_weight_only = model.mesh, model.self_weight_only
     owner = np.full(mesh.edge_count, -1)
-    owner[mesh.element_edges[~bare]] = mesh.panel[~bare][:, None]
-    found = owner[mesh.element_edges[bare]].max(axis=1)
+    owner[mesh.element_edges[~self_weight_only]] = mesh.panel[~self_weight_only][:, None]
+    found = owner[mesh.element_edges[self_weight_only]].max(axis=1)
     beside = np.full(len(model.fixed_thickness), -1)
-    np.maximum.at(beside, mesh.panel[bare] - model.sized_panels, found)
+    np.maximum.at(beside, mesh.panel[self_weight_only] - model.sized_panels, found)
     return beside
 
 
@@ -55,8 +55,8 @@ def support_reactions(
     internal = internal_forces(model.operators, resultants)
     if result.second_order is not None:
         shape = result.displacement
-        if result.initial is not None:
-            shape = shape + result.initial[:, None]
+        if result.imperfection is not None:
+            shape = shape + result.imperfection[:, None]
         push = apply_geometric(model.operators, resultants.force, shape)
         internal = internal + push
     reaction = translations(model, internal - result.loads)

@@ -92,7 +92,7 @@ class AdjointModel:
         """
         operators, one = self.model.operators, np.zeros(1, dtype=np.int64)
         modulus, t = self.material.youngs_modulus, self.thickness
-        first = stress_resultants(operators, self.result.linear[:, [column]], t, modulus)
+        first = stress_resultants(operators, self.result.first_order[:, [column]], t, modulus)
         linear = replace(self, resultants=first, self_weight=self.self_weight[[column]])
         mode = np.zeros((len(self.model.pattern.free), 1))
         mode[self.model.pattern.free, 0] = self.result.buckling.modes[:, column]

@@ -30,8 +30,8 @@ class StopRule:
 @dataclass(frozen=True)
 class IterationState:
     """What a verdict is made of. `utilization` (P,) by the chosen measure; `previous_*` are None
-    in iteration 0; `quiet` counts iterations in a row with a small change of volume; `edge_beam`
-    is the largest utilization of the strips, which no rule sizes, by the same measure."""
+    in iteration 0, `previous_stationary` counts iterations in a row with a small change of volume;
+    `edge_beam` is the largest utilization of its panels, by the same measure."""
 
     iteration: int
     state: str
@@ -43,7 +43,7 @@ class IterationState:
     volume: float
     previous_volume: float | None
     previous_thickness: np.ndarray | None
-    previous_quiet: int
+    previous_stationary: int
     edge_beam: float | None = None
 
 
@@ -54,7 +54,7 @@ class Verdict:
     verdict: str
     reason: str
     criteria: Mapping[str, Mapping[str, object]]
-    quiet: int
+    stationary_iterations: int
 
 
 def judge_iteration(now: IterationState, rule: StopRule) -> Verdict:
@@ -67,21 +67,30 @@ def judge_iteration(now: IterationState, rule: StopRule) -> Verdict:
     change = criteria["volume_change_relative"]["value"]
     share = rule.volume_change_max_relative / STATIONARY_ITERATIONS
     small = change is not None and change < share
-    quiet = now.previous_quiet + 1 if small else 0
+    stationary_iterations = now.previous_stationary + 1 if small else 0
     open_names = [name for name, item in criteria.items() if not item["met"]]
-    settled = rule.stop == "table3" or quiet >= STATIONARY_ITERATIONS
+    settled = rule.stop == "table3" or stationary_iterations >= STATIONARY_ITERATIONS
     if now.state == "ok" and not open_names and settled:
-        return Verdict("converged", "all criteria are met", criteria, quiet)
+        return Verdict("converged", "all criteria are met", criteria, stationary_iterations)
     failing = _describe(now, rule, criteria, open_names)
     if now.state == "ok" and open_names == ["utilization_min"] and _thinnest(now, rule):
         reason = f"every panel stands at the least thickness of {1e3 * rule.least_thickness:g} mm"
-        return Verdict("at_minimum_thickness", f"{reason}; {failing}", criteria, quiet)
+        return Verdict(
+            "at_minimum_thickness", f"{reason}; {failing}", criteria, stationary_iterations
+        )
     if now.state == "ok" and open_names and _unchanged(now):
-        return Verdict("not_converged", f"no panel changes any more; {failing}", criteria, quiet)
+        return Verdict(
+            "not_converged",
+            f"no panel changes any more; {failing}",
+            criteria,
+            stationary_iterations,
+        )
     if now.iteration >= rule.iterations_max:
         reason = f"{rule.iterations_max} iterations are used up; {failing or 'not stationary'}"
-        return Verdict("not_converged", reason, criteria, quiet)
-    return Verdict("continue", failing or now.reason or "not stationary yet", criteria, quiet)
+        return Verdict("not_converged", reason, criteria, stationary_iterations)
+    return Verdict(
+        "continue", failing or now.reason or "not stationary yet", criteria, stationary_iterations
+    )
 
 
 def evaluate_criteria(now: IterationState, rule: StopRule) -> dict[str, dict[str, object]]:

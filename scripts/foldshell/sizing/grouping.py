@@ -20,7 +20,7 @@ ROUNDS_MAX = 6
 SAFETY = 1.005
 """Factor on a raised thickness, so that rounds end."""
 
-LEFT_OUT = ("quiet_iterations", "utilization_min", "verdict", "reason", "criteria")
+LEFT_OUT = ("stationary_iterations", "utilization_min", "verdict", "reason", "criteria")
 
 
 def analyse_classes(

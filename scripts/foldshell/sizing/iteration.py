@@ -84,7 +84,7 @@ class AnalysisCase:
             "verdict": verdict.verdict,
             "reason": verdict.reason,
             "criteria": verdict.criteria,
-            "quiet_iterations": verdict.quiet,
+            "stationary_iterations": verdict.stationary_iterations,
         }
         if done.utilization is not None:
             for more, fields in (_describe_sheet(done), _describe_edge_beam(done)):
@@ -125,7 +125,7 @@ class _Analysed:
 
 def _analyse(case: AnalysisCase, task: IterationTask) -> _Analysed:
     model, material, plan = case.model, case.material, case.plan
-    thickness = model.spread(task.thickness)
+    thickness = model.to_elements(task.thickness)
     modes = task.previous_arrays.get("buckling_modes")
     result = analyse_shell(
         model, thickness, material, plan.loads, plan.combinations, case.options, modes
@@ -198,7 +198,7 @@ def _judge(done: _Analysed, volume: float) -> Verdict:
             volume=volume,
             previous_volume=task.previous.get("volume_m3"),
             previous_thickness=task.previous_arrays.get("thickness"),
-            previous_quiet=task.previous.get("quiet_iterations", 0),
+            previous_stationary=task.previous.get("stationary_iterations", 0),
             edge_beam=float(strips.max()) if len(strips) else None,
         ),
         rule,
@@ -211,7 +211,7 @@ def _describe_sheet(done: _Analysed) -> tuple[dict[str, Any], dict[str, np.ndarr
     down, node, combination = done.downward
     reactions = support_reactions(model, done.result, done.thickness, done.case.material)
     sums = reactions.sum(axis=0).T.tolist()
-    sheet = slice(0, int((~model.bare).sum()))
+    sheet = slice(0, int((~model.self_weight_only).sum()))
     area, cell = model.operators.geometry.area[sheet], done.utilization.cell[sheet]
     at_bound = (thickness <= rule.least_thickness) | (thickness >= rule.largest_thickness)
     report = {
@@ -238,7 +238,7 @@ def _describe_edge_beam(done: _Analysed) -> tuple[dict[str, Any], dict[str, np.n
         return {}, {}
     report = {
         "edge_beam_volume_m3": float(_split_area(model)[1] @ model.fixed_thickness),
-        "edge_beam_utilization_max": float(done.utilization.cell[model.bare].max()),
+        "edge_beam_utilization_max": float(done.utilization.cell[model.self_weight_only].max()),
         "edge_beam_utilization_panel_mean_max": float(done.strips["panel_mean"].max()),
     }
     arrays = {f"edge_beam_utilization_{name}": values for name, values in done.strips.items()}

@@ -28,7 +28,7 @@ def optimality(state: SizingState, limits: SizingLimits) -> SizingState:
     """
     if state.constraints is None:
         raise ValueError("the analysis holds no constraint gradients: it was made for another rule")
-    lower = state.thickness * (1 - state.step) if state.thin else state.thickness
+    lower = state.thickness * (1 - state.step) if state.may_thin else state.thickness
     lower = np.clip(lower, limits.least_thickness, limits.largest_thickness)
     upper = np.clip(state.thickness * (1 + state.step), lower, limits.largest_thickness)
     thickness = minimise_volume(state.thickness, lower, upper, state.constraints)
@@ -42,7 +42,7 @@ def optimality(state: SizingState, limits: SizingLimits) -> SizingState:
         thickness=thickness,
         step=step,
         direction=np.where(wish == 0, state.direction, wish),
-        turns=state.turns + turned,
+        sign_changes=state.sign_changes + turned,
     )
 
 

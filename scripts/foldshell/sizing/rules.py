@@ -14,17 +14,17 @@ SIGN_CHANGES_MAX = 3
 class SizingState:
     """What a rule sees; arrays are (P,), thickness in m.
 
-    `step` is the relative step of each panel, `direction` its last change (-1, 0, 1), `turns` how
-    often that changed sign. `thin` tells whether thinning is allowed at all. `constraints` and the
-    largest relative step `step_max` serve the rule `optimality` alone.
+    `step` is the relative step of each panel, `direction` its last change (-1, 0, 1),
+    `sign_changes` how often that changed sign. `may_thin` tells whether thinning is allowed at all.
+    `constraints` and the largest relative step `step_max` serve the rule `optimality` alone.
     """
 
     thickness: np.ndarray
     utilization: np.ndarray
     step: np.ndarray
     direction: np.ndarray
-    turns: np.ndarray
-    thin: bool = True
+    sign_changes: np.ndarray
+    may_thin: bool = True
     constraints: Constraints | None = None
     step_max: float = np.inf
 
@@ -54,7 +54,7 @@ def dead_band(state: SizingState, limits: SizingLimits) -> SizingState:
     return _step(state, wish, limits)
 
 
-def literal(state: SizingState, limits: SizingLimits) -> SizingState:
+def fully_stressed(state: SizingState, limits: SizingLimits) -> SizingState:
     """Grow above the upper limit, else shrink: the words of the paper, kept for comparison."""
     wish = np.where(state.utilization > limits.utilization_max, 1, -1)
     return _step(state, wish, limits)
@@ -68,13 +68,15 @@ def thicken_all(state: SizingState, limits: SizingLimits, step: float) -> Sizing
 
 def _step(state: SizingState, wish: np.ndarray, limits: SizingLimits) -> SizingState:
     """Move each panel by its own step, which is halved after repeated changes of direction."""
-    wish = wish if state.thin else np.maximum(wish, 0)
+    wish = wish if state.may_thin else np.maximum(wish, 0)
     turned = wish * state.direction < 0
-    turns = state.turns + turned
-    halve = turned & (turns % SIGN_CHANGES_MAX == 0)
+    sign_changes = state.sign_changes + turned
+    halve = turned & (sign_changes % SIGN_CHANGES_MAX == 0)
     step = np.where(halve, state.step / 2, state.step)
     thickness = np.clip(
         state.thickness * (1 + wish * step), limits.least_thickness, limits.largest_thickness
     )
     direction = np.where(wish == 0, state.direction, wish)
-    return replace(state, thickness=thickness, step=step, direction=direction, turns=turns)
+    return replace(
+        state, thickness=thickness, step=step, direction=direction, sign_changes=sign_changes
+    )

@@ -13,14 +13,14 @@ from foldshell.sizing.rules import (
     SizingLimits,
     SizingState,
     dead_band,
-    literal,
+    fully_stressed,
     start_state,
     thicken_all,
 )
 
 RULES: dict[str, Callable[[SizingState, SizingLimits], SizingState]] = {
     "dead_band": dead_band,
-    "literal": literal,
+    "fully_stressed": fully_stressed,
     "optimality": optimality,
 }
 
@@ -163,7 +163,7 @@ def propose_thickness(
     state = replace(
         state,
         utilization=utilization,
-        thin=bool(stiff and safe),
+        may_thin=bool(stiff and safe),
         constraints=constraints,
         step_max=rule.move_limit,
     )
@@ -172,7 +172,7 @@ def propose_thickness(
         note = "displacement above its limit"
     else:
         following = RULES[rule.rule](state, rule.limits)
-        note = "" if state.thin else _explain(stiff)
+        note = "" if state.may_thin else _explain(stiff)
     return NextStep(
         following.thickness, _notes(following, rule.limits, note), _memory(following, thickness, 0)
     )
@@ -182,7 +182,9 @@ def _restore(thickness, memory: Mapping[str, np.ndarray], step: float) -> Sizing
     if not memory:
         return start_state(thickness, step)
     unknown = np.full(len(thickness), np.nan)
-    return SizingState(thickness, unknown, memory["step"], memory["direction"], memory["turns"])
+    return SizingState(
+        thickness, unknown, memory["step"], memory["direction"], memory["sign_changes"]
+    )
 
 
 def _recover(state, memory, rule: StepRule, analysis: Mapping[str, Any]) -> NextStep:
@@ -204,7 +206,7 @@ def _memory(state: SizingState, stable: np.ndarray, failures: int) -> dict[str, 
     return {
         "step": state.step,
         "direction": state.direction,
-        "turns": state.turns,
+        "sign_changes": state.sign_changes,
         "stable": stable,
         "failures": np.asarray(failures),
     }

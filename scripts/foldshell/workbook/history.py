@@ -1,4 +1,4 @@
-"""The history of a sizing loop: one row an iteration, as .csv and as a workbook with charts."""
+"""The history of a sizing loop: one row per iteration, as .csv and as a workbook with charts."""
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path

@@ -1,4 +1,4 @@
-"""Write `summary.xlsx`: one row a design below header and units, then overview and settings."""
+"""Write `summary.xlsx`: one row per design below header and units, then overview and settings."""
 
 from collections import Counter
 from collections.abc import Mapping, Sequence

@@ -2,20 +2,20 @@
 
 import pytest
 
-from claims_case import make_outcome
+from claims_case import make_design_result
+from foldshell.claims.design_result import (
+    Comparer,
+    estimate_uncertainty,
+    group_by_others,
+    pair_neighbours,
+    state_fact,
+)
 from foldshell.claims.finding import (
     combine_errors,
     judge_claim,
     judge_difference,
     judge_many,
     judge_part,
-)
-from foldshell.claims.outcome import (
-    Comparer,
-    estimate_uncertainty,
-    group_by_others,
-    pair_neighbours,
-    state_fact,
 )
 
 
@@ -45,7 +45,7 @@ def test_at_least_as_great_holds_for_equal_numbers_that_are_certain():
 def _findings(holds, fails, untold):
     facts = [state_fact("p", "a", "q", 1.0, 0.0, True)] * holds
     facts += [state_fact("p", "a", "q", 1.0, 0.0, False)] * fails
-    unknown = make_outcome({"displacement": None})
+    unknown = make_design_result({"displacement": None})
     return facts + [Comparer().compare("p", unknown, unknown, "displacement")] * untold
 
 
@@ -104,36 +104,38 @@ def test_errors_add_as_squares():
 
 def test_uncertainty_of_a_displacement_is_mesh_and_crosscheck():
     """sqrt(3^2 + 4^2) = 5 % of 50 mm."""
-    assert estimate_uncertainty(make_outcome(), "displacement", 0.01) == pytest.approx(0.0025)
+    assert estimate_uncertainty(make_design_result(), "displacement", 0.01) == pytest.approx(0.0025)
 
 
 def test_uncertainty_of_a_volume_is_that_of_the_panels_not_at_a_bound():
     """Half of 210 panels free: half of sqrt(5^2 + 12^2) = 13 %."""
-    half = make_outcome({"panels_at_bound": 105})
+    half = make_design_result({"panels_at_bound": 105})
     assert estimate_uncertainty(half, "volume_per_area", 0.12) == pytest.approx(0.05 * 0.13 / 2)
-    thin = make_outcome({"panels_at_bound": 210})
+    thin = make_design_result({"panels_at_bound": 210})
     assert estimate_uncertainty(thin, "volume_per_area", 0.12) == 0.0
 
 
 def test_a_volume_that_has_not_settled_is_as_uncertain_as_its_last_change():
     """sqrt(5^2 + 12^2) = 13 %, though the loop asks for 1 %."""
-    open_end = make_outcome({"volume_change": 0.12})
+    open_end = make_design_result({"volume_change": 0.12})
     assert estimate_uncertainty(open_end, "volume", 0.01) == pytest.approx(80 * 0.13)
 
 
 def test_a_pair_adds_the_uncertainty_of_both():
     """50 and 54 mm: 2.5 and 2.7 mm, together 3.68 mm, less than the difference."""
-    low, high = make_outcome(), make_outcome({"displacement": 0.054})
+    low, high = make_design_result(), make_design_result({"displacement": 0.054})
     found = Comparer().compare("p", high, low, "displacement")
     assert found.uncertainty == pytest.approx(1e-3 * (2.5**2 + 2.7**2) ** 0.5)
     assert found.verdict == "holds"
-    nearer = make_outcome({"displacement": 0.0535})
+    nearer = make_design_result({"displacement": 0.0535})
     assert Comparer().compare("p", nearer, low, "displacement").verdict == "cannot_be_told"
 
 
 def test_groups_differ_in_one_column_only():
-    designs = [make_outcome(height_m=h, support=s) for h in (28.0, 6.0, 10.0) for s in ("all",)]
-    designs += [make_outcome(height_m=6.0, support="strip", surface="arch")]
+    designs = [
+        make_design_result(height_m=h, support=s) for h in (28.0, 6.0, 10.0) for s in ("all",)
+    ]
+    designs += [make_design_result(height_m=6.0, support="strip", surface="arch")]
     pairs = [(a.row["height_m"], b.row["height_m"]) for a, b in
              pair_neighbours(designs, "height_m")]  # fmt: skip
     assert pairs == [(6.0, 10.0), (10.0, 28.0)]

@@ -4,9 +4,9 @@ from dataclasses import replace
 
 import pytest
 
-from claims_case import make_outcome
+from claims_case import make_design_result
 from foldshell.claims import kinematics
-from foldshell.claims.outcome import Comparer
+from foldshell.claims.design_result import Comparer
 
 COMPARER = Comparer()
 
@@ -34,7 +34,7 @@ def _table(ratio=-1.0, shapes=("twist", "saddle"), dome=0.5, stresses=(20, 0), s
             "rigid_panels": {"self_stresses": stresses[0]},
             "bending_panels": {"self_stresses": stresses[1]},
         }],
-        "strengths": [*strengths],
+        "force_ratios": [*strengths],
     }  # fmt: skip
 
 
@@ -59,7 +59,7 @@ def test_soft_modes(shapes, dome, verdict):
 
 
 def test_strain_of_designs_enters():
-    designs = [make_outcome({"edge_strain_rms": e}, surface=s)
+    designs = [make_design_result({"edge_strain_rms": e}, surface=s)
                for s, e in (("paraboloid", 0.001), ("hypar", 0.01))]  # fmt: skip
     verdict, parts = kinematics.judge_soft_modes(_table(), designs, COMPARER).judge()
     assert verdict == "mixed"
@@ -77,12 +77,12 @@ def test_strain_of_designs_enters():
 )
 def test_strengths(quads, triangles, stresses, verdict):
     table = _table(strengths=_fold_all("own", quads, triangles), stresses=stresses)
-    assert kinematics.judge_strengths(table).judge()[0] == verdict
+    assert kinematics.judge_force_ratios(table).judge()[0] == verdict
 
 
 def test_engines_that_disagree_are_told_apart():
     strengths = _fold_all("one") + _fold_all("other_way", triangles=(True, False))
-    claim = kinematics.judge_strengths(_table(strengths=strengths))
+    claim = kinematics.judge_force_ratios(_table(strengths=strengths))
     verdict, parts = claim.judge()
     assert verdict == parts["triangles reach the target at all strengths"] == "mixed"
     assert len(claim.parts["triangles reach the target at all strengths"]) == 2
@@ -93,7 +93,7 @@ def test_engines_that_disagree_are_told_apart():
 def _folded(mode, **quality):
     exact = {"planarity_max": 1e-15, "edge_strain_max": 1e-14, "angle_defect_max_rad": 1e-15,
              "flat_foldability_max_rad": 1e-15}  # fmt: skip
-    return replace(make_outcome(fold_mode=mode), quality=exact | quality)
+    return replace(make_design_result(fold_mode=mode), quality=exact | quality)
 
 
 def test_foldability_is_judged_by_the_mode_of_the_paper():

@@ -2,9 +2,9 @@
 
 import pytest
 
-from claims_case import make_outcome
+from claims_case import make_design_result
 from foldshell.claims import limits
-from foldshell.claims.outcome import Comparer
+from foldshell.claims.design_result import Comparer
 
 COMPARER = Comparer()
 
@@ -21,7 +21,7 @@ COMPARER = Comparer()
 def test_buckling_before_strength(states, verdict):
     """Strength is reached at 1 / 0.4 = 2.5 times the loads, buckling at 1.2 times."""
     designs = [
-        make_outcome({"utilization_panel_mean_max": u, "buckling_factor": f}, strip=16 + k)
+        make_design_result({"utilization_panel_mean_max": u, "buckling_factor": f}, strip=16 + k)
         for k, (u, f) in enumerate(states)
     ]
     assert limits.judge_buckling(designs, COMPARER).judge()[0] == verdict
@@ -32,7 +32,7 @@ def test_buckling_before_strength(states, verdict):
 )
 def test_low_utilization_stands_beside_the_reason(mean, verdict):
     """Low is below 0.6, the lower limit of Table 3."""
-    claim = limits.judge_buckling([make_outcome({"utilization_mean": mean})], COMPARER)
+    claim = limits.judge_buckling([make_design_result({"utilization_mean": mean})], COMPARER)
     assert claim.judge()[1]["utilization is low"] == verdict
     assert claim.judge()[0] == "fails"
 
@@ -40,11 +40,11 @@ def test_low_utilization_stands_beside_the_reason(mean, verdict):
 def test_what_holds_designs():
     bindings = limits.count_bindings(
         [
-            make_outcome({"displacement": 0.11, "utilization_panel_mean_max": 0.7}),
-            make_outcome({"panels_at_bound": 210, "utilization_panel_mean_max": 0.5}),
-            make_outcome({"buckling_factor": 1.2}),
-            make_outcome({"displacement": None, "state": "unstable"}),
-            make_outcome({"buckling_factor": None, "utilization_panel_mean_max": 0.7}),
+            make_design_result({"displacement": 0.11, "utilization_panel_mean_max": 0.7}),
+            make_design_result({"panels_at_bound": 210, "utilization_panel_mean_max": 0.5}),
+            make_design_result({"buckling_factor": 1.2}),
+            make_design_result({"displacement": None, "state": "unstable"}),
+            make_design_result({"buckling_factor": None, "utilization_panel_mean_max": 0.7}),
         ],
         COMPARER,
     )
@@ -60,7 +60,9 @@ def test_what_holds_designs():
 
 def _on_two_edges(*above):
     return [
-        make_outcome({"above_one": a, "above_one_at_free_edge": b}, support="strip", strip=16 + k)
+        make_design_result(
+            {"above_one": a, "above_one_at_free_edge": b}, support="strip", strip=16 + k
+        )
         for k, (a, b) in enumerate(above)
     ]
 
@@ -79,14 +81,14 @@ def test_free_edges(above, verdict):
 
 
 def test_points_above_one_are_said_beside_the_panels():
-    designs = [make_outcome({"utilization_max": u}, support="strip", strip=16 + k)
+    designs = [make_design_result({"utilization_max": u}, support="strip", strip=16 + k)
                for k, u in enumerate((2.0, 0.9))]  # fmt: skip
     (note,) = limits.judge_free_edges(designs).notes
     assert "single points exceed 1 in 1 of 2 designs" in note
 
 
 def test_free_edges_of_designs_held_all_round_say_nothing():
-    claim = limits.judge_free_edges([make_outcome({"above_one": 5})])
+    claim = limits.judge_free_edges([make_design_result({"above_one": 5})])
     assert claim.judge()[0] == "cannot_be_told"
 
 
@@ -100,7 +102,7 @@ def test_free_edges_of_designs_held_all_round_say_nothing():
 )
 def test_deflection_along_free_edges(edge, inner, verdict):
     values = {"displacement_edge": edge, "displacement_inner": inner}
-    designs = [make_outcome(values, support="zigzag")]
+    designs = [make_design_result(values, support="zigzag")]
     assert limits.judge_deflected_edges(designs, COMPARER).judge()[0] == verdict
 
 
@@ -119,20 +121,20 @@ def _flat(displacement, first=None):
     [(_flat(3.0), "holds"), (_flat(0.01), "fails"), (_flat(0.051), "cannot_be_told")],
 )
 def test_flat_sheet_of_equal_volume(flat, verdict):
-    design = make_outcome()
+    design = make_design_result()
     claim = limits.judge_folds([design], {design.name: flat}, COMPARER)
     assert claim.judge()[0] == verdict
 
 
 def test_a_flat_sheet_that_buckles_does_not_stand():
-    design = make_outcome()
+    design = make_design_result()
     (finding,) = limits.judge_folds([design], {design.name: _flat(None, 2.0)}, COMPARER).findings
     assert finding.verdict == "holds" and finding.values == (2.0, 0.05)
 
 
 def test_sized_flat_sheets_stand_beside_the_claim():
     designs = [
-        make_outcome({"volume": v}, pattern=p) for p, v in (("flat", 700.0), ("miura", 80.0))
+        make_design_result({"volume": v}, pattern=p) for p, v in (("flat", 700.0), ("miura", 80.0))
     ]
     claim = limits.judge_folds(designs, {designs[1].name: _flat(3.0)}, COMPARER)
     verdict, parts = claim.judge()

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from claims_case import make_outcome
+from claims_case import make_design_result
 from foldshell.claims.planarity import describe_planarity, judge_correlations
 from foldshell.results.correlation import linear_correlation, rank_correlation
 
@@ -37,12 +37,12 @@ def test_designs_are_pooled_and_single():
     """Falling within each design, rising between them: pooled panels mislead."""
     falls = [
         replace(
-            make_outcome(zigzag=15 + k),
+            make_design_result(zigzag=15 + k),
             panels=np.stack([np.arange(20) + 100 * k, 100 * k - np.arange(20)]).astype(float),
         )
         for k in range(3)
     ]
-    found = describe_planarity([*falls, make_outcome(pattern="smooth")])
+    found = describe_planarity([*falls, make_design_result(pattern="smooth")])
     numbers = found["numbers"]
     assert found["verdict"] == "holds" and numbers["spearman_median"] == pytest.approx(-1)
     assert numbers["pooled"]["spearman"] > 0.5 and numbers["pooled"]["panels"] == 60

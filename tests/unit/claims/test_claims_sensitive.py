@@ -1,7 +1,7 @@
 """How verdicts change with settings, and what is said of claims that no run covers."""
 
-from claims_case import make_outcome
-from foldshell.claims.outcome import Comparer
+from claims_case import make_design_result
+from foldshell.claims.design_result import Comparer
 from foldshell.claims.sensitive import (
     describe_dependence,
     judge_equal_thickness,
@@ -16,7 +16,7 @@ COMPARER = Comparer()
 def _surfaces(dome, arch, saddle):
     values = {"paraboloid": dome, "arch": arch, "hypar": saddle}
     return [
-        make_outcome({"volume_per_area": v, "volume": 1000 * v}, surface=s)
+        make_design_result({"volume_per_area": v, "volume": 1000 * v}, surface=s)
         for s, v in values.items()
     ]
 
@@ -52,7 +52,7 @@ def test_folding_knows_no_setting_of_the_loop():
 
 def test_equal_thickness_leaves_volumes_out():
     equal = [
-        make_outcome({"volume_per_area": v, "displacement": w}, support=s)
+        make_design_result({"volume_per_area": v, "displacement": w}, support=s)
         for s, v, w in (("strip", 0.15, 0.09), ("zigzag", 0.15, 0.05))
     ]
     parts = judge_equal_thickness("C7", equal, COMPARER)["parts"]

@@ -2,16 +2,16 @@
 
 import pytest
 
-from claims_case import make_outcome
+from claims_case import make_design_result
 from foldshell.claims import structure
-from foldshell.claims.outcome import Comparer
+from foldshell.claims.design_result import Comparer
 
 COMPARER = Comparer()
 
 
 def _heights(quantity, values, **columns):
     return [
-        make_outcome({quantity: value}, height_m=height, **columns)
+        make_design_result({quantity: value}, height_m=height, **columns)
         for value, height in zip(values, (6.0, 10.0, 28.0), strict=True)
     ]
 
@@ -27,7 +27,7 @@ def _heights(quantity, values, **columns):
 )
 def test_lower_curvature(used, moved, verdict):
     designs = [
-        make_outcome({"utilization_mean": u, "displacement": w}, height_m=h)
+        make_design_result({"utilization_mean": u, "displacement": w}, height_m=h)
         for u, w, h in zip(used, moved, (6.0, 10.0, 28.0), strict=True)
     ]
     assert structure.judge_curvature(designs, COMPARER).judge()[0] == verdict
@@ -52,7 +52,7 @@ def test_smooth_shells_at_the_least_thickness_need_no_more():
     """All panels at the bound: the volumes per area are equal and certain."""
     thin = {"volume_per_area": 0.04, "panels_at_bound": 210}
     designs = _heights("volume_per_area", (0.05, 0.06, 0.08))
-    designs += [make_outcome(thin, height_m=h, pattern="smooth") for h in (6.0, 10.0)]
+    designs += [make_design_result(thin, height_m=h, pattern="smooth") for h in (6.0, 10.0)]
     assert structure.judge_material(designs, COMPARER).judge()[0] == "holds"
 
 
@@ -67,21 +67,21 @@ def test_smooth_shells_at_the_least_thickness_need_no_more():
 )
 def test_surfaces(dome, arch, saddle, verdict):
     values = {"paraboloid": dome, "arch": arch, "hypar": saddle}
-    designs = [make_outcome({"volume_per_area": v}, surface=s) for s, v in values.items()]
+    designs = [make_design_result({"volume_per_area": v}, surface=s) for s, v in values.items()]
     claim = structure.judge_surfaces(designs, COMPARER)
     assert claim.judge()[0] == verdict
     assert len(claim.findings) == 3
 
 
 def test_a_group_without_one_of_the_surfaces_is_left_out():
-    designs = [make_outcome(surface=s) for s in ("paraboloid", "arch")]
+    designs = [make_design_result(surface=s) for s in ("paraboloid", "arch")]
     claim = structure.judge_surfaces(designs, COMPARER)
     assert claim.findings == [] and claim.judge()[0] == "cannot_be_told"
 
 
 def _supported(variation, volume, moved):
     return [
-        make_outcome(
+        make_design_result(
             {"utilization_variation": a, "volume_per_area": b, "displacement": c}, support=support
         )
         for support, a, b, c in zip(("strip", "zigzag"), variation, volume, moved, strict=True)
@@ -121,14 +121,14 @@ def test_the_stronger_axis_is_judged_at_equal_thickness():
 )
 def test_zigzags(depth, moved, verdict):
     designs = [
-        make_outcome({"depth": d, "displacement": w}, zigzag=n)
+        make_design_result({"depth": d, "displacement": w}, zigzag=n)
         for d, w, n in zip(depth, moved, (15, 30), strict=True)
     ]
     assert structure.judge_zigzags(designs, COMPARER).judge()[0] == verdict
 
 
 def test_zigzags_are_compared_at_the_same_count_of_strips():
-    designs = [make_outcome(zigzag=15, strip=16), make_outcome(zigzag=8, strip=32)]
+    designs = [make_design_result(zigzag=15, strip=16), make_design_result(zigzag=8, strip=32)]
     assert structure.judge_zigzags(designs, COMPARER).findings == []
 
 
@@ -143,13 +143,13 @@ def test_zigzags_are_compared_at_the_same_count_of_strips():
 )
 def test_strips(area, variation, verdict):
     designs = [
-        make_outcome({"panel_area": a, "utilization_variation": v}, strip=n)
+        make_design_result({"panel_area": a, "utilization_variation": v}, strip=n)
         for a, v, n in zip(area, variation, (16, 32), strict=True)
     ]
     assert structure.judge_strips(designs, COMPARER).judge()[0] == verdict
 
 
 def test_exact_folds_do_not_enter():
-    designs = [make_outcome({"displacement": w}, height_m=h, fold_mode="exact")
+    designs = [make_design_result({"displacement": w}, height_m=h, fold_mode="exact")
                for w, h in ((0.09, 6.0), (0.03, 10.0))]  # fmt: skip
     assert structure.judge_curvature(designs, COMPARER).findings == []

@@ -2,10 +2,10 @@
 
 from dataclasses import replace
 
-from claims_case import make_outcome
+from claims_case import make_design_result
+from foldshell.claims.design_result import Comparer
 from foldshell.claims.kinematics import judge_foldability
 from foldshell.claims.limits import judge_folds
-from foldshell.claims.outcome import Comparer
 from foldshell.claims.statement import Claim, describe_claim
 from foldshell.claims.structure import judge_supports
 from foldshell.claims.words import join_names, write_findings, write_section
@@ -22,8 +22,12 @@ def test_names_share_what_they_have_in_common():
 def test_a_row_holds_the_values_in_the_order_of_its_name():
     """The evenness of C7 is claimed the other way round than the volume."""
     designs = [
-        make_outcome({"utilization_variation": 0.3, "volume_per_area": 0.08}, support="strip"),
-        make_outcome({"utilization_variation": 0.5, "volume_per_area": 0.05}, support="zigzag"),
+        make_design_result(
+            {"utilization_variation": 0.3, "volume_per_area": 0.08}, support="strip"
+        ),
+        make_design_result(
+            {"utilization_variation": 0.5, "volume_per_area": 0.05}, support="zigzag"
+        ),
     ]
     entry = describe_claim(judge_supports(designs, COMPARER))
     (table,) = write_findings(entry["numbers"]["findings"])
@@ -38,7 +42,7 @@ def test_rows_share_a_table_only_where_columns_mean_the_same():
     exact = {"planarity_max": 0.0, "edge_strain_max": 0.0, "angle_defect_max_rad": 0.0,
              "flat_foldability_max_rad": 0.0}  # fmt: skip
     designs = [
-        replace(make_outcome(strip=16 + k), quality=exact | {worst: 0.02})
+        replace(make_design_result(strip=16 + k), quality=exact | {worst: 0.02})
         for k, worst in enumerate(("planarity_max", "edge_strain_max", "planarity_max"))
     ]
     tables = write_findings(describe_claim(judge_foldability(designs))["numbers"]["findings"])
@@ -55,7 +59,7 @@ def test_a_section_says_what_cannot_be_told():
 
 
 def test_flat_sheets_have_a_row_each():
-    design = make_outcome()
+    design = make_design_result()
     flat = {
         "flat": "flat-sheet", "state": "unstable", "thickness_m": 0.05, "volume_m3": 80.0,
         "area_m2": 1600.0, "sides_m": [40.0, 41.5], "displacement_first_order_m": 2.0,

@@ -1,9 +1,9 @@
 """An edited workbook is noticed by its bytes and survives, whatever replaces it."""
 
 import pytest
-from workbook_cases import edit_with_openpyxl, write_case
 
 from foldshell.files.edits import RECORD, is_edited, keep_all_edited, keep_edited, record_written
+from workbook_cases import edit_with_openpyxl, write_case
 
 
 @pytest.fixture

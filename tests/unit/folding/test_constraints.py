@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from folding_cases import differentiate, skewed_sheet
 
+from folding_cases import differentiate, skewed_sheet
 from foldshell.folding.constraints import (
     Fairness,
     find_chains,

@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from folding_cases import skewed_sheet
 
+from folding_cases import skewed_sheet
 from foldshell.folding.intersections import find_intersections
 from foldshell.folding.quality import (
     count_flipped,

@@ -4,8 +4,8 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from folding_cases import DENSITIES, SPAN_HEIGHTS, fold_case
 
+from folding_cases import DENSITIES, SPAN_HEIGHTS, fold_case
 from foldshell.folding.isometric import (
     STEEP_SHEETS,
     SWAY,

@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from folding_cases import DENSITIES, SPAN_HEIGHTS, fold_case
 
+from folding_cases import DENSITIES, SPAN_HEIGHTS, fold_case
 from foldshell.folding.problem import Weights
 from foldshell.folding.quadric import SURFACES
 

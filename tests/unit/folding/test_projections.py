@@ -1,6 +1,7 @@
 """The explicit engine finds the same minimum as Levenberg-Marquardt, only slowly."""
 
 import pytest
+
 from folding_cases import fold_case
 
 

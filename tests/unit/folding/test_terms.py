@@ -4,8 +4,8 @@ import math
 
 import numpy as np
 import pytest
-from folding_cases import differentiate, skewed_sheet
 
+from folding_cases import differentiate, skewed_sheet
 from foldshell.folding.problem import Weights, build_terms
 from foldshell.folding.quadric import SURFACES, make_quadric
 

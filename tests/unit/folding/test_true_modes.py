@@ -2,8 +2,8 @@
 
 import numpy as np
 import pytest
-from folding_cases import DENSITIES, fold_case
 
+from folding_cases import DENSITIES, fold_case
 from foldshell.folding.quadric import SURFACES
 from foldshell.folding.quality import find_convex
 from foldshell.pattern.angles import developability_residual, flat_foldability_residual

@@ -6,7 +6,7 @@ import pytest
 
 from foldshell.folding.settings import FoldSettings
 from foldshell.folding.targets import make_target
-from foldshell.kinematics.force_ratios import try_strengths
+from foldshell.kinematics.force_ratios import try_force_ratios
 from foldshell.kinematics.mechanism import (
     count_mechanisms,
     find_soft_modes,
@@ -85,7 +85,7 @@ def test_triangles_keep_their_panels_and_quadrilaterals_shear(panel):
     target = make_target("paraboloid", 28, 10)
     sheet = design_sheet("miura", target.section_lengths(), 15, 16, 60.0, 0)
     quads, triangles = (
-        try_strengths(sheet, target, FoldSettings(), kind, 100.0, panel)
+        try_force_ratios(sheet, target, FoldSettings(), kind, 100.0, panel)
         for kind in ("quadrilaterals", "triangles")
     )
     assert triangles.folded and triangles.shear_max < 0.1

@@ -174,7 +174,7 @@ def test_strips_carry_their_own_weight_only_and_reactions_balance():
         mesh = mesh_from_arrays(arrays)
         model = build_model(mesh, arrays["supported_nodes"], 0.2, fixed_thickness=fixed)
         assert model.sized_panels == PANELS
-        thickness = model.spread(np.full(PANELS, 0.08))
+        thickness = model.to_elements(np.full(PANELS, 0.08))
         first = AnalysisOptions(second_order=False)
         result = analyse_shell(model, thickness, MATERIAL, Loads(), combinations, first)
         load = translations(model, result.loads).sum(axis=0)
@@ -229,7 +229,7 @@ def test_channel_cantilever_bends_like_a_beam(seed):
     model = build_model(mesh, clamped, 0.0, fixed_thickness=np.full(20, beam.thickness))
     material = Material("", modulus, 0.0, gamma, 1.0, 1.0)
     result = analyse_shell(
-        model, model.spread(np.full(10, t)), material, Loads(), {"SW": {"SW": 1.0}},
+        model, model.to_elements(np.full(10, t)), material, Loads(), {"SW": {"SW": 1.0}},
         AnalysisOptions(second_order=False),
     )  # fmt: skip
     flange, webs = width * t, 2 * beam.depth * beam.thickness

@@ -5,13 +5,13 @@ Tolerances are 1e-9 of the largest term: round-off of matrices with entries of 1
 
 import numpy as np
 import pytest
-from shell_cases import dense_stiffness, edge_rotations, folded_strip, random_rotation, skewed_patch
 
 from foldshell.shell.assembly import rotation_dofs, translation_dofs
 from foldshell.shell.mesh import build_mesh, edge_polyline_nodes
 from foldshell.shell.reference import EDGES
 from foldshell.shell.stiffness import build_operators
 from foldshell.shell.stress import stress_resultants
+from shell_cases import dense_stiffness, edge_rotations, folded_strip, random_rotation, skewed_patch
 
 ORDERS = [1, 2, 3, 5]
 NU = 0.3

@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from shell_cases import dense_stiffness, folded_strip, skewed_patch
 
 from foldshell.checks.strength import (
     CRITERIA,
@@ -29,6 +28,7 @@ from foldshell.shell.stress import (
     stress_resultants,
     surface_stresses,
 )
+from shell_cases import dense_stiffness, folded_strip, skewed_patch
 
 CONCRETE = Material("C25/30", 31e6, 0.2, 25.0, 16_700.0, 1_670.0)
 

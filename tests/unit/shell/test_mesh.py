@@ -2,12 +2,12 @@
 
 import numpy as np
 import pytest
-from shell_cases import folded_strip, random_rotation, skewed_patch
 
 from foldshell.shell.mesh import build_mesh, edge_polyline_nodes, split_subdivisions
 from foldshell.shell.mesh_files import cell_triangles, interpolate_to_cells, result_mesh
 from foldshell.shell.stress import cell_points
 from foldshell.shell.supports import supported_pairs
+from shell_cases import folded_strip, random_rotation, skewed_patch
 
 SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]])
 TWO = np.array([[0, 1, 2], [0, 2, 3]])

@@ -4,7 +4,6 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from shell_cases import dense_stiffness, folded_strip, skewed_patch
 
 from foldshell.loads.cases import Loads
 from foldshell.settings.material import Material
@@ -24,6 +23,7 @@ from foldshell.shell.results import reaction_imbalance, support_reactions
 from foldshell.shell.second_order import solve_second_order
 from foldshell.shell.stiffness import build_operators
 from foldshell.shell.stress import membrane_forces
+from shell_cases import dense_stiffness, folded_strip, skewed_patch
 
 CONCRETE = Material("C25/30", 31e6, 0.2, 25.0, 16_700.0, 1_670.0)
 COMBINATIONS = {
@@ -98,7 +98,7 @@ def dense_buckling(model, thickness, combination):
     dense = np.zeros((size, size))
     dense[model.pattern.indices, column] = values
     dense[column, model.pattern.indices] = values
-    force = membrane_forces(model.operators, result.linear, thickness, 31e6)
+    force = membrane_forces(model.operators, result.first_order, thickness, 31e6)
     full = np.eye(model.mesh.dof_count)[:, model.pattern.dofs]
     stacked = np.repeat(force, full.shape[1], axis=3)
     matrix = apply_geometric(model.operators, stacked, full)[model.pattern.dofs]
@@ -182,7 +182,10 @@ def test_second_order_solves_its_equation():
     dofs = model.pattern.dofs
     gap = dense @ result.displacement[dofs] + extra - result.loads[dofs]
     assert np.abs(gap).max() < 1e-6 * np.abs(result.loads).max()
-    assert np.abs(result.displacement - result.linear).max() > 1e-3 * np.abs(result.linear).max()
+    assert (
+        np.abs(result.displacement - result.first_order).max()
+        > 1e-3 * np.abs(result.first_order).max()
+    )
 
 
 @pytest.mark.parametrize("factor", [0.5, 0.9])
@@ -313,7 +316,7 @@ def test_a_mechanism_is_reported_with_its_place_and_without_numbers():
     model = build_model(hinged, held, 0.2)
     result = analyse_shell(model, np.full(3, 0.1), CONCRETE, Loads(), COMBINATIONS)
     assert result.state == "mechanism"
-    assert result.place == 4
+    assert result.mechanism_node == 4
     assert "(3.000, 0.500, 0.000)" in result.reason
     assert np.isnan(result.displacement).all()
 
@@ -329,11 +332,11 @@ def test_initial_shape_grows_as_its_factor_says():
     perfect = analyse_shell(model, thickness, CONCRETE, Loads(), combination)
     options = AnalysisOptions(imperfection=1e-3)
     found = analyse_shell(model, thickness, CONCRETE, Loads(), combination, options)
-    shape = found.initial[: 3 * len(model.mesh.nodes)].reshape(-1, 3)
+    shape = found.imperfection[: 3 * len(model.mesh.nodes)].reshape(-1, 3)
     assert np.linalg.norm(shape, axis=1).max() == pytest.approx(1e-3)
-    assert found.initial @ found.loads[:, 0] >= 0
+    assert found.imperfection @ found.loads[:, 0] >= 0
     grown = (found.displacement - perfect.displacement)[:, 0]
-    along = grown @ found.initial / (found.initial @ found.initial)
+    along = grown @ found.imperfection / (found.imperfection @ found.imperfection)
     assert along == pytest.approx(1 / (perfect.buckling.factors[0] - 1), rel=0.02)
     reactions = support_reactions(model, found, thickness, CONCRETE)
     assert reaction_imbalance(model, found, reactions) < 1e-7

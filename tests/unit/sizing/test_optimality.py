@@ -47,7 +47,7 @@ def test_bounds_and_move_limits_hold_where_no_answer_exists():
     assert optimality(state, LIMITS).thickness == pytest.approx(1.3 * t)
     free = replace(state, constraints=Constraints(np.empty(0), np.empty((0, 2)), np.ones(2)))
     assert optimality(free, LIMITS).thickness == pytest.approx(0.7 * t)
-    held = replace(free, thin=False)
+    held = replace(free, may_thin=False)
     assert optimality(held, LIMITS).thickness == pytest.approx(t)
 
 
@@ -161,4 +161,4 @@ def test_adjoint_solves_the_same_system():
     result = analyse(thickness)
     factors = combination_matrix(plan.combinations)
     adjoint = open_adjoint(model, result, thickness[model.mesh.panel], material, factors)
-    assert adjoint.solve(result.loads) == pytest.approx(result.linear, rel=1e-9, abs=1e-12)
+    assert adjoint.solve(result.loads) == pytest.approx(result.first_order, rel=1e-9, abs=1e-12)

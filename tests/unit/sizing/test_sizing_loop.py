@@ -11,7 +11,7 @@ from foldshell.sizing.rules import (
     SizingLimits,
     SizingState,
     dead_band,
-    literal,
+    fully_stressed,
     start_state,
     thicken_all,
 )
@@ -41,7 +41,7 @@ def test_dead_band_grows_above_one_shrinks_below_the_band_and_keeps_between():
 
 
 def test_literal_rule_shrinks_inside_the_band_too():
-    new = literal(state([1.2, 0.8]), LIMITS)
+    new = fully_stressed(state([1.2, 0.8]), LIMITS)
     assert new.thickness == pytest.approx([0.11, 0.09])
 
 
@@ -51,7 +51,7 @@ def test_bounds_hold():
 
 
 def test_no_thinning_where_it_is_not_allowed():
-    new = dead_band(state([1.2, 0.1], thin=False), LIMITS)
+    new = dead_band(state([1.2, 0.1], may_thin=False), LIMITS)
     assert new.thickness == pytest.approx([0.11, 0.1])
 
 
@@ -118,7 +118,7 @@ def iteration(**changes) -> IterationState:
     base = IterationState(
         iteration=3, state="ok", reason="", thickness=np.array([0.1, 0.2]),
         utilization=np.array([0.7, 0.9]), displacement=0.05, span=28.0, volume=100.0,
-        previous_volume=100.5, previous_thickness=np.array([0.11, 0.2]), previous_quiet=0,
+        previous_volume=100.5, previous_thickness=np.array([0.11, 0.2]), previous_stationary=0,
     )  # fmt: skip
     return replace(base, **changes)
 
@@ -173,16 +173,18 @@ def test_verdicts(changes, verdict, words):
 
 def test_stationary_asks_for_three_quiet_iterations():
     rule = replace(STOP, stop="stationary")
-    quiet, verdicts = 0, []
+    stationary_iterations, verdicts = 0, []
     for number in range(4):
-        now = iteration(iteration=number, previous_volume=100.2, previous_quiet=quiet)
+        now = iteration(
+            iteration=number, previous_volume=100.2, previous_stationary=stationary_iterations
+        )
         found = judge_iteration(now, rule)
-        quiet = found.quiet
+        stationary_iterations = found.stationary_iterations
         verdicts.append(found.verdict)
     assert verdicts == ["continue", "continue", "converged", "converged"]
-    loud = judge_iteration(iteration(previous_volume=105.0, previous_quiet=2), rule)
-    assert loud.verdict == "continue" and loud.quiet == 0
-    creeping = judge_iteration(iteration(previous_volume=100.5, previous_quiet=2), rule)
+    loud = judge_iteration(iteration(previous_volume=105.0, previous_stationary=2), rule)
+    assert loud.verdict == "continue" and loud.stationary_iterations == 0
+    creeping = judge_iteration(iteration(previous_volume=100.5, previous_stationary=2), rule)
     assert creeping.verdict == "continue", "1 % is the change of three iterations together"
 
 

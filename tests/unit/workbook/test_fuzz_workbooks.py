@@ -12,11 +12,11 @@ import openpyxl
 import pytest
 from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
-from workbook_cases import GRID, LARGEST, LEAST, THICKNESS, write_case
 
 from foldshell.files.errors import InputError
 from foldshell.sizing.rounding import round_thickness
 from foldshell.workbook.read_thickness import read_thickness
+from workbook_cases import GRID, LARGEST, LEAST, THICKNESS, write_case
 
 # openpyxl warns of dates far in the future that an edit has made.
 pytestmark = pytest.mark.filterwarnings("ignore::UserWarning")

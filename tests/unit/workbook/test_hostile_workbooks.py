@@ -10,6 +10,9 @@ import zipfile
 from contextlib import nullcontext
 
 import pytest
+
+from foldshell.files.errors import InputError
+from foldshell.workbook.read_thickness import read_thickness
 from workbook_cases import (
     GRID,
     LARGEST,
@@ -20,9 +23,6 @@ from workbook_cases import (
     write_case,
     write_parts,
 )
-
-from foldshell.files.errors import InputError
-from foldshell.workbook.read_thickness import read_thickness
 
 OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
 MEMORY_MAX = 100e6

@@ -10,11 +10,11 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from workbook_cases import GRID, LARGEST, LEAST, THICKNESS, write_case
 
 from foldshell.files.errors import InputError
 from foldshell.sizing.rounding import round_thickness
 from foldshell.workbook.read_thickness import read_thickness
+from workbook_cases import GRID, LARGEST, LEAST, THICKNESS, write_case
 
 PYTHON = "/usr/bin/python3"
 DRIVER = Path(__file__).with_name("libreoffice_typing.py")

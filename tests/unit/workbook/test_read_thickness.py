@@ -4,6 +4,10 @@ import datetime
 
 import numpy as np
 import pytest
+
+from foldshell.files.errors import InputError
+from foldshell.sizing.rounding import round_thickness
+from foldshell.workbook.read_thickness import read_thickness
 from workbook_cases import (
     GRID,
     LARGEST,
@@ -14,10 +18,6 @@ from workbook_cases import (
     rewrite_part,
     write_case,
 )
-
-from foldshell.files.errors import InputError
-from foldshell.sizing.rounding import round_thickness
-from foldshell.workbook.read_thickness import read_thickness
 
 
 @pytest.fixture

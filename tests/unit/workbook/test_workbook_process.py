@@ -6,10 +6,10 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from workbook_cases import LARGEST, LEAST
 
 from foldshell.workbook.panels import ThicknessTable, make_panel_grid
 from foldshell.workbook.write_thickness import write_thickness
+from workbook_cases import LARGEST, LEAST
 
 SCRIPTS = str(Path(__file__).parents[3] / "scripts")
 

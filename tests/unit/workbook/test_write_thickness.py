@@ -5,12 +5,12 @@ import time
 import numpy as np
 import openpyxl
 import pytest
-from workbook_cases import GRID, LARGEST, LEAST, SUMMARY, THICKNESS, write_case
 
 from foldshell.sizing.rounding import round_thickness
 from foldshell.workbook.panels import ThicknessTable, make_panel_grid
 from foldshell.workbook.read_thickness import read_thickness
 from foldshell.workbook.write_thickness import write_thickness
+from workbook_cases import GRID, LARGEST, LEAST, SUMMARY, THICKNESS, write_case
 
 
 def test_panel_ids_run_along_strips():

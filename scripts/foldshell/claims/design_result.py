@@ -1,4 +1,4 @@
-"""The outcome of a design, its uncertainty, and designs that differ in one thing only."""
+"""The result of a design, its uncertainty, and designs that differ in one thing only."""
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, field
@@ -46,7 +46,7 @@ QUANTITIES = {
 
 
 @dataclass(frozen=True)
-class Outcome:
+class DesignResult:
     """A design and what came of it.
 
     `row` has the columns of designs.tsv, `values` the measures of its state, `errors` the relative
@@ -71,7 +71,9 @@ class Outcome:
         return (self.row["zigzag"] - 1) * (self.row["strip"] - 1)
 
 
-def estimate_uncertainty(outcome: Outcome, quantity: str, volume_step: float) -> float | None:
+def estimate_uncertainty(
+    design_result: DesignResult, quantity: str, volume_step: float
+) -> float | None:
     """Return the uncertainty of a quantity in its own unit, None where it is not known.
 
     Mesh error and cross-check difference as root of the sum of squares. Volume inherits the
@@ -79,30 +81,30 @@ def estimate_uncertainty(outcome: Outcome, quantity: str, volume_step: float) ->
     proportion, and the change of volume `volume_step` that ends the loop, or the last one where
     that is larger; both on the share of panels that do not stand at a bound.
     """
-    value, kind = outcome.values.get(quantity), QUANTITIES[quantity].error
+    value, kind = design_result.values.get(quantity), QUANTITIES[quantity].error
     if value is None:
         return None
     if kind == "geometry":
         return 0.0
     if kind != "volume":
-        relative = combine_errors(*outcome.errors.get(kind, (None, None)))
+        relative = combine_errors(*design_result.errors.get(kind, (None, None)))
         return None if relative is None else abs(value) * relative
-    at_bound = outcome.values.get("panels_at_bound")
+    at_bound = design_result.values.get("panels_at_bound")
     if at_bound is None:
         return None
-    free = 1 - at_bound / outcome.panel_count
+    free = 1 - at_bound / design_result.panel_count
     if free == 0:
         return 0.0
-    errors = [combine_errors(*outcome.errors.get(name, (None, None)))
+    errors = [combine_errors(*design_result.errors.get(name, (None, None)))
               for name in ("displacement", "utilization")]  # fmt: skip
-    step = max(volume_step, outcome.values.get("volume_change") or 0.0)
+    step = max(volume_step, design_result.values.get("volume_change") or 0.0)
     relative = None if None in errors else combine_errors(max(errors), step)
     return None if relative is None else abs(value) * free * relative
 
 
 @dataclass(frozen=True)
 class Comparer:
-    """Compares outcomes by limits of the loop: the relative change of volume that ends it, the
+    """Compares designs by limits of the loop: the relative change of volume that ends it, the
     span over the displacement allowed, least mean utilization and least buckling factor."""
 
     volume_step: float = 0.01
@@ -111,29 +113,39 @@ class Comparer:
     buckling_factor_min: float = 1.5
 
     def compare(
-        self, part: str, greater: Outcome, lesser: Outcome, quantity: str, strict: bool = True
+        self,
+        part: str,
+        greater: DesignResult,
+        lesser: DesignResult,
+        quantity: str,
+        strict: bool = True,
     ) -> Finding:
         """Find whether a quantity of `greater` exceeds that of `lesser` beyond uncertainty."""
         names = greater.name, lesser.name
         both = [(greater, quantity), (lesser, quantity)]
         return self._compare(part, names, quantity, both, strict)
 
-    def compare_within(self, part: str, outcome: Outcome, greater: str, lesser: str) -> Finding:
+    def compare_within(
+        self, part: str, design_result: DesignResult, greater: str, lesser: str
+    ) -> Finding:
         """Find whether one quantity of a design exceeds another of the same unit."""
-        both = [(outcome, greater), (outcome, lesser)]
-        return self._compare(part, (outcome.name,), f"{greater}, {lesser}", both)
+        both = [(design_result, greater), (design_result, lesser)]
+        return self._compare(part, (design_result.name,), f"{greater}, {lesser}", both)
 
     def _compare(
         self,
         part: str,
         designs: tuple[str, ...],
         quantity: str,
-        both: Sequence[tuple[Outcome, str]],
+        both: Sequence[tuple[DesignResult, str]],
         strict: bool = True,
     ) -> Finding:
-        greater, lesser = (outcome.values.get(name) for outcome, name in both)
+        greater, lesser = (design_result.values.get(name) for design_result, name in both)
         uncertainty = combine_errors(
-            *(estimate_uncertainty(outcome, name, self.volume_step) for outcome, name in both)
+            *(
+                estimate_uncertainty(design_result, name, self.volume_step)
+                for design_result, name in both
+            )
         )
         unit = QUANTITIES[both[0][1]].unit
         verdict = judge_difference(greater, lesser, uncertainty, strict)
@@ -158,37 +170,41 @@ def state_fact(
     return Finding(part, (design,), quantity, unit, (value, limit), 0.0, HOLDS if true else FAILS)
 
 
-def choose(outcomes: Iterable[Outcome], **columns: Any) -> list[Outcome]:
-    """Return the outcomes whose columns have these values; a tuple allows several."""
+def select(design_results: Iterable[DesignResult], **columns: Any) -> list[DesignResult]:
+    """Return the results whose columns have these values; a tuple allows several."""
 
-    def fits(outcome: Outcome) -> bool:
-        """Tell whether an outcome has all of the values."""
+    def fits(design_result: DesignResult) -> bool:
+        """Tell whether a result has all of the values."""
         return all(
-            outcome.row[name] in (value if isinstance(value, tuple) else (value,))
+            design_result.row[name] in (value if isinstance(value, tuple) else (value,))
             for name, value in columns.items()
         )
 
-    return [outcome for outcome in outcomes if fits(outcome)]
+    return [design_result for design_result in design_results if fits(design_result)]
 
 
-def choose_folded(outcomes: Iterable[Outcome]) -> list[Outcome]:
+def select_folded(design_results: Iterable[DesignResult]) -> list[DesignResult]:
     """Return the designs folded as in the paper."""
-    return choose(outcomes, pattern="miura", fold_mode="paper")
+    return select(design_results, pattern="miura", fold_mode="paper")
 
 
-def group_by_others(outcomes: Iterable[Outcome], column: str) -> list[dict[Any, Outcome]]:
-    """Return groups of designs that differ in one column only, {its value: outcome}, sorted."""
-    groups: dict[tuple, dict[Any, Outcome]] = {}
-    for outcome in outcomes:
+def group_by_others(
+    design_results: Iterable[DesignResult], column: str
+) -> list[dict[Any, DesignResult]]:
+    """Return groups of designs that differ in one column only, {its value: result}, sorted."""
+    groups: dict[tuple, dict[Any, DesignResult]] = {}
+    for design_result in design_results:
         others = tuple(
-            value for name, value in sorted(outcome.row.items())
+            value for name, value in sorted(design_result.row.items())
             if name not in ("design", "tags", column)
         )  # fmt: skip
-        groups.setdefault(others, {})[outcome.row[column]] = outcome
+        groups.setdefault(others, {})[design_result.row[column]] = design_result
     return [dict(sorted(group.items())) for group in groups.values() if len(group) > 1]
 
 
-def pair_neighbours(outcomes: Sequence[Outcome], column: str) -> list[tuple[Outcome, Outcome]]:
+def pair_neighbours(
+    design_results: Sequence[DesignResult], column: str
+) -> list[tuple[DesignResult, DesignResult]]:
     """Return (lower, higher) pairs, neighbours in the order of a column of numbers."""
-    return [pair for group in group_by_others(outcomes, column)
+    return [pair for group in group_by_others(design_results, column)
             for pair in pairwise(group.values())]  # fmt: skip
