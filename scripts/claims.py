@@ -35,7 +35,7 @@ def main(
     write_json(json_path, claims)
     rows = list_runs(found.variants)
     write_csv(runs_path, list(rows[0]) if rows else ["design", "variant"], rows)
-    spread = write_spread(found.variants, found.outcomes, describe_variants())
+    spread = write_spread(found.variants, found.design_results, describe_variants())
     with atomic_path(page_path) as temporary:
         temporary.write_text(write_claims(claims, spread), encoding="utf-8")
 
