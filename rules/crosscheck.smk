@@ -57,6 +57,7 @@ rule compare:
         workbook=f"{RESULTS}/{{design}}/crosscheck/comparison.xlsx",
     params:
         subdivisions=SETTINGS.crosscheck.subdivisions,
+        solver=SETTINGS.crosscheck.solver,
         tolerance=stage_parameters(SETTINGS, "crosscheck")["crosscheck"]["tolerance"],
     priority: AFTER_LOOP
     benchmark:

@@ -7,6 +7,7 @@ from crosscheck.errors import CrosscheckError, report_errors
 from crosscheck.model import read_model
 from crosscheck.primary import read_primary, read_reason
 from crosscheck.reading import write_json
+from crosscheck.records import MULTIFRONTAL, to_data
 from crosscheck.system import SHEAR_FACTOR
 from crosscheck.verdict import compare_codes, leave_out
 from crosscheck.workbook import write_comparison
@@ -22,14 +23,16 @@ def main(
     tolerance: Mapping[str, float] | None = None,
     stability: bool = True,
     shear_factor: float = SHEAR_FACTOR,
+    solver: str = MULTIFRONTAL,
 ) -> None:
     """Read model.json and primary.json; write comparison.json and comparison.xlsx.
 
     `subdivisions` are the elements along a block side of each mesh, coarse to fine, of the first
     comparison; where codes differ, a second one on finer meshes stands. `tolerance`
     overrides relative tolerances by quantity; `stability` adds the buckling factors and values
-    of second order that the primary code gives. `shear_factor` 5/6 is the physical plate. A
-    mechanism has nothing to compare: `pass` is null, with the reason.
+    of second order that the primary code gives. `shear_factor` 5/6 is the physical plate;
+    `solver` scipy takes the plain path. A mechanism has nothing to compare: `pass` is null, with
+    the reason.
     """
     model, reason = read_model(model_path), read_reason(primary_path)
     meshes = [int(m) for m in subdivisions]
@@ -37,12 +40,12 @@ def main(
         raise CrosscheckError(f"crosscheck.subdivisions: {meshes}: allowed are increasing, from 1")
     if reason is None:
         primary = read_primary(primary_path, model.compared_combinations)
-        how = (meshes, tolerance or {}, stability, shear_factor)
+        how = (meshes, tolerance or {}, stability, shear_factor, solver)
         result = compare_codes(model, primary, *how)
     else:
-        result = leave_out(None, reason)
+        result = leave_out(None, reason, solver)
     write_comparison(workbook_path, model.design, result)
-    write_json(json_path, {"design": model.design, **result})
+    write_json(json_path, {"design": model.design, **to_data(result)})
 
 
 if "snakemake" in globals():

@@ -1,16 +1,22 @@
 """All that is compared, for one mesh of a model."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from crosscheck.discretisation import Discretisation, discretise, hold_edges
-from crosscheck.errors import MechanismError
+from crosscheck.errors import CrosscheckError, MechanismError
 from crosscheck.frontal import NotPositiveDefinite, Plan
 from crosscheck.loads import combine_cases, compute_surface_loads, distribute_loads
 from crosscheck.model import Model
+from crosscheck.records import MULTIFRONTAL, SCIPY
 from crosscheck.stress import compute_panel_means, compute_percentile, compute_utilization
 from crosscheck.system import SHEAR_FACTOR, Response, Section, System, build_system, solve_loads
+
+if TYPE_CHECKING:
+    from crosscheck.plain import PlainSystem
 
 
 @dataclass(frozen=True)
@@ -18,19 +24,25 @@ class Analysis:
     """A model on one mesh: its system, loads on facet nodes (F, R, 3, k) and first-order answer."""
 
     model: Model
-    system: System
+    system: "System | PlainSystem"
     surface: np.ndarray  # (F, 3, k) kN/m2
     forces: np.ndarray
     response: Response
 
 
 def analyse_model(
-    model: Model, subdivisions: int, shear_factor: float = SHEAR_FACTOR, plan: Plan | None = None
+    model: Model,
+    subdivisions: int,
+    shear_factor: float = SHEAR_FACTOR,
+    plan: Plan | None = None,
+    solver: str = MULTIFRONTAL,
 ) -> Analysis:
     """First-order answer to the compared combinations on `subdivisions` elements a block side.
 
-    `plan` is that of `plan_facets`, made here where it is not given.
+    `plan` is that of `plan_facets`, made here where it is not given; `solver` is
+    MULTIFRONTAL, or SCIPY for the plain path.
     """
+    build, solve = _choose_solver(solver)
     hold = hold_edges(model.supported_edges)
     grid = discretise(model.vertices, model.facets, hold, subdivisions, plan=plan)
     material = model.material
@@ -38,7 +50,7 @@ def analyse_model(
         model.thickness, material.youngs_modulus, material.poissons_ratio, shear_factor
     )
     try:
-        system = build_system(grid, section)
+        system = build(grid, section)
     except NotPositiveDefinite:
         raise MechanismError(
             "model: supported_edges: these let the shell move: allowed are edges that hold it"
@@ -46,7 +58,20 @@ def analyse_model(
     loads = compute_surface_loads(model, grid.axes[:, 2])
     surface = combine_cases(loads, model.compared_combinations)
     forces = distribute_loads(grid, surface)
-    return Analysis(model, system, surface, forces, solve_loads(system, forces))
+    return Analysis(model, system, surface, forces, solve(system, forces))
+
+
+def _choose_solver(solver: str) -> tuple[Callable, Callable]:
+    """What builds a system and what solves it; the plain path is imported where it is taken."""
+    if solver == MULTIFRONTAL:
+        return build_system, solve_loads
+    if solver != SCIPY:
+        raise CrosscheckError(
+            f"crosscheck.solver: {solver!r}: allowed are {MULTIFRONTAL} and {SCIPY}"
+        )
+    from crosscheck.plain import build_plain_system, solve_plain_loads
+
+    return build_plain_system, solve_plain_loads
 
 
 def measure_response(

@@ -36,12 +36,16 @@ class Buckling:
     steps: int
 
 
-def compute_buckling_factors(system: System, first: Response, seed: int = 0) -> Buckling:
+def compute_buckling_factors(
+    system: System, first: Response, seed: int = 0, tolerance: float = TOLERANCE
+) -> Buckling:
     """Find the factors by `search_factors` alone."""
-    return run_alone(system, search_factors(system, first, seed))
+    return run_alone(system, search_factors(system, first, seed, tolerance))
 
 
-def search_factors(system: System, first: Response, seed: int = 0) -> Steps:
+def search_factors(
+    system: System, first: Response, seed: int = 0, tolerance: float = TOLERANCE
+) -> Steps:
     """Smallest positive f with (K + f Kg) singular, for each column of `first`.
 
     Infinite where no multiple of the load buckles the shell. A factor that is not settled after
@@ -71,7 +75,7 @@ def search_factors(system: System, first: Response, seed: int = 0) -> Steps:
         gram = rows @ np.swapaxes(forces, -1, -2)
         length = (part**2).sum(axis=(1, 2))
         value, error = _find_largest(projected[:, done, done], gram)
-        settled = error <= TOLERANCE * np.abs(value)
+        settled = error <= tolerance * np.abs(value)
         if settled.all():
             break
     factor = np.where(value > 0, 1 / np.where(value > 0, value, 1.0), np.inf)

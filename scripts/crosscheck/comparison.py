@@ -1,7 +1,7 @@
 """Two codes side by side: limits, differences, tolerances, mesh errors."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,7 @@ from crosscheck.extrapolation import (
     measure_order,
 )
 from crosscheck.reading import Place
+from crosscheck.records import MULTIFRONTAL, Comparison, Limit, Quantity
 
 SECOND_ORDER = "Th.II"
 """Second-order values of combination S2 stand under `S2 Th.II`."""
@@ -93,7 +94,9 @@ def _collect(entries: Sequence[Mapping[str, Any]]) -> dict[str, list]:
     return {name: [entry[name] for entry in entries] for name in entries[0]}
 
 
-def compare(primary: Code, independent: Code, tolerances: Mapping[str, float]) -> dict[str, Any]:
+def compare(
+    primary: Code, independent: Code, tolerances: Mapping[str, float], solver: str = MULTIFRONTAL
+) -> Comparison:
     """Quantity by quantity: both limits, relative difference, tolerance, pass; and mesh errors.
 
     Compared is what both codes give; what only one gives is listed as `not_compared`. What this
@@ -101,7 +104,7 @@ def compare(primary: Code, independent: Code, tolerances: Mapping[str, float]) -
     no number to compare, and the comparison fails.
     """
     allowed = TOLERANCES | read_tolerances(tolerances)
-    quantities: dict[str, Any] = {}
+    quantities: dict[str, Quantity] = {}
     not_settled: list[str] = []
     missing = [name for name in primary.values if name not in independent.values]
     for combination, values in independent.values.items():
@@ -119,15 +122,16 @@ def compare(primary: Code, independent: Code, tolerances: Mapping[str, float]) -
                 )
         if "reaction_sum_kn" in values and "reaction_sum_kn" in given:
             quantities |= _compare_reactions(given, values, combination, allowed)
-    agree = bool(quantities) and all(entry["pass"] for entry in quantities.values())
-    return {
-        "pass": agree and not not_settled,
-        "quantities": quantities,
-        "not_compared": missing,
-        "not_settled": not_settled,
-        "primary_subdivisions": list(primary.subdivisions),
-        "independent_subdivisions": list(independent.subdivisions),
-    }
+    agree = bool(quantities) and all(entry.passed for entry in quantities.values())
+    return Comparison(
+        passed=agree and not not_settled,
+        quantities=quantities,
+        not_compared=missing,
+        not_settled=not_settled,
+        primary_subdivisions=list(primary.subdivisions),
+        independent_subdivisions=list(independent.subdivisions),
+        solver=solver,
+    )
 
 
 def read_tolerances(tolerances: Mapping[str, float]) -> dict[str, float]:
@@ -141,27 +145,25 @@ def read_tolerances(tolerances: Mapping[str, float]) -> dict[str, float]:
 
 def _compare_scalar(
     primary: Code, independent: Code, combination: str, name: str, allowed: Mapping[str, float]
-) -> dict[str, Any]:
+) -> Limit:
     kind, unit = KINDS[name]
-    (first, first_order), (second, second_order) = (
-        code.limit(combination, name) for code in (primary, independent)
-    )
-    entry = _judge(first, second, max(abs(first), abs(second)), allowed[kind], unit)
-    for code, label, order in (
-        (primary, "primary", first_order),
-        (independent, "independent", second_order),
-    ):
-        meshes = code.values[combination][name]
-        entry[f"{label}_meshes"] = [float(value) for value in meshes]
-        entry[f"{label}_order"] = order
+    codes = {"primary": primary, "independent": independent}
+    limits = {label: code.limit(combination, name) for label, code in codes.items()}
+    first, second = (value for value, _ in limits.values())
+    judged = _judge(first, second, max(abs(first), abs(second)), allowed[kind], unit)
+    more: dict[str, Any] = {}
+    for label, code in codes.items():
+        meshes = [float(value) for value in code.values[combination][name]]
         aim = code.extrapolate(combination, name)[0]
-        entry[f"{label}_mesh_error"] = compute_mesh_error(meshes[-1], aim)
-    return entry
+        more[f"{label}_meshes"] = meshes
+        more[f"{label}_order"] = limits[label][1]
+        more[f"{label}_mesh_error"] = compute_mesh_error(meshes[-1], aim)
+    return Limit(**vars(judged), **more)
 
 
 def _compare_reactions(
     given: Mapping[str, Any], own: Mapping[str, Any], combination: str, allowed: Mapping[str, float]
-) -> dict[str, Any]:
+) -> dict[str, Quantity]:
     """Finest mesh: each component against the other code's, and each code's own balance."""
     first, second = (np.array(values["reaction_sum_kn"][-1], float) for values in (given, own))
     scale = max(np.linalg.norm(first), np.linalg.norm(second))
@@ -177,20 +179,20 @@ def _compare_reactions(
         for values in (given, own)
     ]
     balance = _judge(defect[0], defect[1], 1.0, allowed["reaction_balance"], "-")
-    balance["relative_difference"] = float(max(defect))
-    balance["pass"] = bool(max(defect) <= balance["tolerance"])
+    kept = bool(max(defect) <= balance.tolerance)
+    balance = replace(balance, relative_difference=float(max(defect)), passed=kept)
     return entries | {f"{combination} reaction_imbalance": balance}
 
 
 def _judge(
     primary: float, independent: float, scale: float, tolerance: float, unit: str
-) -> dict[str, Any]:
+) -> Quantity:
     difference = abs(primary - independent) / scale if scale > 0 else 0.0
-    return {
-        "primary": float(primary),
-        "independent": float(independent),
-        "relative_difference": float(difference),
-        "tolerance": float(tolerance),
-        "pass": bool(difference <= tolerance),
-        "unit": unit,
-    }
+    return Quantity(
+        primary=float(primary),
+        independent=float(independent),
+        relative_difference=float(difference),
+        tolerance=float(tolerance),
+        passed=bool(difference <= tolerance),
+        unit=unit,
+    )

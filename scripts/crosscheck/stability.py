@@ -13,9 +13,10 @@ from crosscheck.buckling import search_factors
 from crosscheck.comparison import NOT_SETTLED, SECOND_ORDER
 from crosscheck.frontal import Plan
 from crosscheck.model import Model
+from crosscheck.records import MULTIFRONTAL
 from crosscheck.search import NotSettled, Search, Steps, run_alone, solve_together
-from crosscheck.second_order import SecondOrder, search_second_order
-from crosscheck.system import Response
+from crosscheck.second_order import search_second_order
+from crosscheck.system import Response, System
 
 CHANGE = 1e-5  # at which second order has settled: mesh errors are a thousand times larger
 LARGEST_FACTOR = 1e6  # beyond it nothing buckles; a number that JSON can hold
@@ -28,12 +29,13 @@ def analyse_mesh(
     buckling: bool,
     second_order: bool,
     plan: Plan | None = None,
+    solver: str = MULTIFRONTAL,
 ) -> dict[str, dict[str, object]]:
     """All values of one mesh, by combination; second-order ones under `<combination> Th.II`.
 
     `plan` is that of `plan_facets`, which all meshes of a model share.
     """
-    analysis = analyse_model(model, subdivisions, shear_factor, plan)
+    analysis = analyse_model(model, subdivisions, shear_factor, plan, solver)
     values = list_values(analysis)
     if buckling or second_order:
         for name, entry in list_stability_values(analysis, second_order).items():
@@ -46,6 +48,8 @@ def list_stability_values(analysis: Analysis, second_order: bool) -> dict[str, d
 
     A factor that has not settled is NOT_SETTLED in place of a number.
     """
+    if not isinstance(analysis.system, System):
+        return _list_plain(analysis, second_order)
     names = list(analysis.model.compared_combinations)
     cases, system = np.arange(len(names)), analysis.system
     searches = [Search(search_factors(system, analysis.response))]
@@ -67,7 +71,23 @@ def list_stability_values(analysis: Analysis, second_order: bool) -> dict[str, d
         solve_together(system, searches[1])
     if searches[1].error is not None:
         return result | _list_one_by_one(analysis, below)
-    return result | _list_second_order(analysis, cases, searches[1].result)
+    return result | _list_second_order(analysis, cases, searches[1].result.response)
+
+
+def _list_plain(analysis: Analysis, second_order: bool) -> dict[str, dict[str, object]]:
+    """The same by the plain path, one combination after the other."""
+    from crosscheck.plain import find_plain_factors, find_plain_state
+
+    names, system = list(analysis.model.compared_combinations), analysis.system
+    result: dict[str, dict[str, object]] = {}
+    for case, factor in enumerate(find_plain_factors(system, analysis.response)):
+        result[names[case]] = {"buckling_factor": float(min(factor, LARGEST_FACTOR))}
+        if second_order and factor > 1:
+            only = np.array([case])
+            forces, first = _pick_cases(analysis, only)
+            state = find_plain_state(system, forces, first)
+            result |= _list_second_order(analysis, only, state)
+    return result
 
 
 def _list_one_by_one(analysis: Analysis, cases: np.ndarray) -> dict[str, dict[str, object]]:
@@ -78,24 +98,28 @@ def _list_one_by_one(analysis: Analysis, cases: np.ndarray) -> dict[str, dict[st
             state = run_alone(analysis.system, _search_state(analysis, cases[cases == case]))
         except NotSettled:
             continue
-        result |= _list_second_order(analysis, cases[cases == case], state)
+        result |= _list_second_order(analysis, cases[cases == case], state.response)
     return result
 
 
 def _search_state(analysis: Analysis, cases: np.ndarray) -> Steps:
     """The search for the second-order state of some combinations."""
-    first, forces = analysis.response, analysis.forces[..., cases]
-    start = Response(
-        first.local[..., cases], first.displacement[..., cases], first.reaction_sum[:, cases]
-    )
+    forces, start = _pick_cases(analysis, cases)
     return search_second_order(analysis.system, forces, start, CHANGE)
 
 
+def _pick_cases(analysis: Analysis, cases: np.ndarray) -> tuple[np.ndarray, Response]:
+    """Forces (F, R, 3, k) and first-order answer of some combinations."""
+    first, forces = analysis.response, analysis.forces[..., cases]
+    local, moved = first.local[..., cases], first.displacement[..., cases]
+    return forces, Response(local, moved, first.reaction_sum[:, cases])
+
+
 def _list_second_order(
-    analysis: Analysis, cases: np.ndarray, found: SecondOrder
+    analysis: Analysis, cases: np.ndarray, state: Response
 ) -> dict[str, dict[str, object]]:
     """Values of the state found for some combinations."""
-    names, state = list(analysis.model.compared_combinations), found.response
+    names = list(analysis.model.compared_combinations)
     forces = analysis.forces[..., cases]
     loads = sum_loads(analysis.system.grid, analysis.surface[..., cases])
     return {

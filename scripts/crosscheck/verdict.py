@@ -1,16 +1,14 @@
 """Run this code on its meshes and compare, or say why there is nothing to compare."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from dataclasses import replace
 
 from crosscheck.comparison import SECOND_ORDER, Code, build_independent, compare
 from crosscheck.discretisation import plan_facets
 from crosscheck.errors import MechanismError
 from crosscheck.model import Model
+from crosscheck.records import MULTIFRONTAL, Comparison, FirstComparison
 from crosscheck.stability import analyse_mesh
-
-KEPT = ("independent_subdivisions", "quantities", "not_settled")
-"""Of a first comparison that a second one replaces."""
 
 
 def compare_codes(
@@ -20,7 +18,8 @@ def compare_codes(
     tolerance: Mapping[str, float],
     stability: bool,
     shear_factor: float,
-) -> dict[str, Any]:
+    solver: str = MULTIFRONTAL,
+) -> Comparison:
     """The comparison; failed, with the reason, where only this code finds a mechanism.
 
     Codes that differ are compared once more after the coarsest of these meshes has made way for a
@@ -32,22 +31,34 @@ def compare_codes(
     second = stability and any(SECOND_ORDER in name for name in primary.values)
     try:
         plan = plan_facets(model.vertices, model.facets)
-        how = (shear_factor, buckling, second, plan)
+        how = (shear_factor, buckling, second, plan, solver)
         runs = [analyse_mesh(model, m, *how) for m in meshes]
-        result = compare(primary, build_independent(meshes, runs), tolerance)
-        if not result["pass"]:
-            first = {key: result[key] for key in KEPT}
-            meshes = [*meshes[1:], meshes[-1] + 1]
-            runs = [*runs[1:], analyse_mesh(model, meshes[-1], *how)]
-            result = compare(primary, build_independent(meshes, runs), tolerance)
-            result["first"] = first
+        result = compare(primary, build_independent(meshes, runs), tolerance, solver)
+        if result.passed:
+            return result
+        meshes = [*meshes[1:], meshes[-1] + 1]
+        runs = [*runs[1:], analyse_mesh(model, meshes[-1], *how)]
+        again = compare(primary, build_independent(meshes, runs), tolerance, solver)
+        return replace(again, first=_keep(result))
     except MechanismError as error:
-        return leave_out(False, str(error))
-    return result
+        return leave_out(False, str(error), solver)
 
 
-def leave_out(passed: bool | None, reason: str) -> dict[str, Any]:
+def _keep(result: Comparison) -> FirstComparison:
+    """What is kept of a comparison that a second one replaces."""
+    found = (result.independent_subdivisions, result.quantities, result.not_settled)
+    return FirstComparison(*found)
+
+
+def leave_out(passed: bool | None, reason: str, solver: str = MULTIFRONTAL) -> Comparison:
     """A comparison without quantities, and why."""
-    empty = {"not_compared": [], "not_settled": []}
-    empty |= {"primary_subdivisions": [], "independent_subdivisions": []}
-    return {"pass": passed, "reason": reason, "quantities": {}, **empty}
+    return Comparison(
+        passed=passed,
+        quantities={},
+        not_compared=[],
+        not_settled=[],
+        primary_subdivisions=[],
+        independent_subdivisions=[],
+        solver=solver,
+        reason=reason,
+    )

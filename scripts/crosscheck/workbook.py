@@ -3,13 +3,13 @@
 from collections.abc import Mapping, Sequence
 from datetime import datetime
 from pathlib import Path
-from typing import Any
 
 from xlsxwriter import Workbook
 from xlsxwriter.format import Format
 from xlsxwriter.worksheet import Worksheet
 
 from crosscheck.reading import write_whole
+from crosscheck.records import Comparison, Limit
 
 CREATED = datetime(2020, 1, 1)  # the same values give the same bytes
 COLUMNS = {
@@ -55,7 +55,7 @@ NUMERIC = {
 }
 
 
-def write_comparison(path: str | Path, design: str, comparison: Mapping[str, Any]) -> None:
+def write_comparison(path: str | Path, design: str, comparison: Comparison) -> None:
     """Write sheets `comparison` and `meshes`; rows of failed quantities are red."""
     with write_whole(path) as temporary, Workbook(str(temporary)) as book:
         book.set_properties({"title": f"Cross-check of {design}", "created": CREATED})
@@ -110,77 +110,71 @@ def _name_quantity(key: str) -> tuple[str, str]:
     return combination, LABELS.get(name, name)
 
 
-def _write_comparison(
-    sheet: Worksheet, design: str, comparison: Mapping[str, Any], style: dict
-) -> None:
-    verdict = {True: "passed", False: "failed", None: "not possible"}[comparison["pass"]]
+def _write_comparison(sheet: Worksheet, design: str, comparison: Comparison, style: dict) -> None:
+    verdict = {True: "passed", False: "failed", None: "not possible"}[comparison.passed]
     widths = (12, 36, 6, 13, 13, 11, 11, 9, 12, 12)
     _start_sheet(sheet, f"{design}: cross-check {verdict}", COLUMNS, widths, style)
     row = 3
-    if "reason" in comparison:
-        sheet.write(row, 0, comparison["reason"], style["text"])
-    for key, entry in comparison["quantities"].items():
-        end = "" if entry["pass"] else "_failed"
+    if comparison.reason is not None:
+        sheet.write(row, 0, comparison.reason, style["text"])
+    for key, entry in comparison.quantities.items():
+        end = "" if entry.passed else "_failed"
         value = style[("small" if key.endswith("imbalance") else "number") + end]
-        tight = style[("small" if entry["tolerance"] < 1e-3 else "percent") + end]
+        tight = style[("small" if entry.tolerance < 1e-3 else "percent") + end]
         text = style["text" + end]
-        sheet.write_row(row, 0, [*_name_quantity(key), entry["unit"]], text)
-        sheet.write_row(row, 3, [entry["primary"], entry["independent"]], value)
-        sheet.write_row(
-            row, 5, [100 * entry["relative_difference"], 100 * entry["tolerance"]], tight
-        )
-        sheet.write(row, 7, "passed" if entry["pass"] else "failed", style["result" + end])
+        sheet.write_row(row, 0, [*_name_quantity(key), entry.unit], text)
+        sheet.write_row(row, 3, [entry.primary, entry.independent], value)
+        sheet.write_row(row, 5, [100 * entry.relative_difference, 100 * entry.tolerance], tight)
+        sheet.write(row, 7, "passed" if entry.passed else "failed", style["result" + end])
         for column, code in ((8, "primary"), (9, "independent")):
-            error = entry.get(f"{code}_mesh_error")
+            error = getattr(entry, f"{code}_mesh_error", None)
             shown = "-" if error is None else 100 * error
             sheet.write(row, column, shown, style["percent" + end])
         row += 1
-    for key in comparison["not_compared"]:
+    for key in comparison.not_compared:
         row += 1
         sheet.write(row, 0, f"not compared, given by one code only: {key}", style["text"])
-    for key in comparison["not_settled"]:
+    for key in comparison.not_settled:
         row += 1
         text = f"not settled within the steps of the independent code: {key}"
         sheet.write(row, 0, text, style["text_failed"])
-    if "first" in comparison:
+    if comparison.first is not None:
         sheet.write(row + 2, 0, _describe_first(comparison), style["text"])
 
 
-def _describe_first(comparison: Mapping[str, Any]) -> str:
+def _describe_first(comparison: Comparison) -> str:
     """What a first comparison found, which the one on finer meshes replaces."""
-    first = comparison["first"]
+    first = comparison.first
     before, now = (
-        " and ".join(str(m) for m in one["independent_subdivisions"]) for one in (first, comparison)
+        " and ".join(str(m) for m in one.independent_subdivisions) for one in (first, comparison)
     )
     failed = [
-        f"{key} {100 * entry['relative_difference']:.3g} %"
-        for key, entry in first["quantities"].items()
-        if not entry["pass"]
+        f"{key} {100 * entry.relative_difference:.3g} %"
+        for key, entry in first.quantities.items()
+        if not entry.passed
     ]
-    failed += [f"{key} not settled" for key in first["not_settled"]]
+    failed += [f"{key} not settled" for key in first.not_settled]
     return (
         f"second comparison, on meshes {now} of the independent code; "
         f"the first, on {before}, failed: {', '.join(failed)}"
     )
 
 
-def _write_meshes(
-    sheet: Worksheet, design: str, comparison: Mapping[str, Any], style: dict
-) -> None:
+def _write_meshes(sheet: Worksheet, design: str, comparison: Comparison, style: dict) -> None:
     widths = (12, 36, 6, 13, 9, 13, 13, 11, 9)
     _start_sheet(sheet, f"{design}: values of each mesh", MESH_COLUMNS, widths, style)
     row = 3
-    for key, entry in comparison["quantities"].items():
+    limits = {k: e for k, e in comparison.quantities.items() if isinstance(e, Limit)}
+    for key, entry in limits.items():
         for code in ("primary", "independent"):
-            limit = entry[code]
-            for n, value in zip(
-                comparison[f"{code}_subdivisions"], entry.get(f"{code}_meshes", []), strict=False
-            ):
+            limit = getattr(entry, code)
+            values = getattr(entry, f"{code}_meshes")
+            for n, value in zip(getattr(comparison, f"{code}_subdivisions"), values, strict=True):
                 error = abs(value - limit) / abs(limit) if limit else 0.0
-                sheet.write_row(row, 0, [*_name_quantity(key), entry["unit"], code], style["text"])
+                sheet.write_row(row, 0, [*_name_quantity(key), entry.unit, code], style["text"])
                 sheet.write(row, 4, n, style["count"])
                 sheet.write_row(row, 5, [value, limit], style["number"])
-                order = entry[f"{code}_order"]
+                order = getattr(entry, f"{code}_order")
                 sheet.write_row(
                     row, 7, [100 * error, "-" if order is None else order], style["percent"]
                 )

@@ -224,9 +224,9 @@ def right(tmp_path_factory):
 
 def test_without_a_slip_the_codes_agree(right, tmp_path, monkeypatch):
     result = compare_codes(right, right_inputs(), tmp_path, monkeypatch)
-    failed = {k: e for k, e in result["quantities"].items() if not e["pass"]}
-    assert not failed and not result["not_compared"]
-    assert result["independent_subdivisions"] == [1, 2]
+    failed = {k: e for k, e in result.quantities.items() if not e.passed}
+    assert not failed and not result.not_compared
+    assert result.independent_subdivisions == [1, 2]
 
 
 @pytest.mark.parametrize("where", ["primary", "independent"])
@@ -241,13 +241,13 @@ def test_a_slip_in_one_code_is_caught(name, where, right, tmp_path, monkeypatch)
         result = compare_codes(wrong, right_inputs(), tmp_path, monkeypatch, stability)
     else:
         result = compare_codes(right, inputs, tmp_path, monkeypatch, stability)
-    assert not result["pass"]
-    assert result["independent_subdivisions"] == [2, 3]
-    entry = result["quantities"][f"S2 {quantity}"]
+    assert not result.passed
+    assert result.independent_subdivisions == [2, 3]
+    entry = result.quantities[f"S2 {quantity}"]
     print(f"{name} | {where} | {quantity} | {entry['relative_difference']:.2g}")
-    assert not entry["pass"]
+    assert not entry.passed
     # not by a hair: the difference is at least a quarter more than what is allowed
-    assert entry["relative_difference"] > 1.25 * entry["tolerance"]
+    assert entry.relative_difference > 1.25 * entry.tolerance
     if stability:
-        failed = {k.split()[-1] for k, e in result["quantities"].items() if not e["pass"]}
+        failed = {k.split()[-1] for k, e in result.quantities.items() if not e.passed}
         assert failed == {quantity}

@@ -156,6 +156,7 @@ class Crosscheck:
     subdivisions: list[int]
     strength: str
     deflection: str
+    solver: str
     tolerance: Tolerance
 
 

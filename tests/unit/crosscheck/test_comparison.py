@@ -7,6 +7,7 @@ import pytest
 
 from crosscheck.comparison import TOLERANCES, Code, build_independent, compare
 from crosscheck.errors import CrosscheckError
+from crosscheck.records import to_data
 from crosscheck.workbook import write_comparison
 
 RUN = {
@@ -31,21 +32,23 @@ def build_codes(**changes):
 
 def test_equal_values_pass_and_the_contract_keys_are_there():
     result = compare(*build_codes(), {})
-    assert result["pass"]
-    assert result["not_compared"] == []
-    for entry in result["quantities"].values():
-        assert {"primary", "independent", "relative_difference", "tolerance", "pass"} <= set(entry)
-    assert "S2 reaction_z_kn" in result["quantities"]
-    assert "S2 reaction_imbalance" in result["quantities"]
+    assert result.passed
+    assert result.not_compared == []
+    for entry in result.quantities.values():
+        assert {"primary", "independent", "relative_difference", "tolerance", "pass"} <= set(
+            to_data(entry)
+        )
+    assert "S2 reaction_z_kn" in result.quantities
+    assert "S2 reaction_imbalance" in result.quantities
 
 
 def test_limits_are_compared_and_mesh_errors_shown():
     """Primary 0.07 at 4 and 0.0925 at 8 is 0.1 at second order; alone it would be 7.5 % off."""
     result = compare(*build_codes(displacement_down_max_m=[0.07, 0.0925]), {})
-    entry = result["quantities"]["S2 displacement_down_max_m"]
-    assert entry["primary"] == pytest.approx(0.1)
-    assert entry["primary_mesh_error"] == pytest.approx(0.075)
-    assert entry["pass"]
+    entry = result.quantities["S2 displacement_down_max_m"]
+    assert entry.primary == pytest.approx(0.1)
+    assert entry.primary_mesh_error == pytest.approx(0.075)
+    assert entry.passed
 
 
 @pytest.mark.parametrize(
@@ -60,23 +63,23 @@ def test_limits_are_compared_and_mesh_errors_shown():
 )
 def test_a_difference_beyond_its_tolerance_fails(name, value, failed):
     result = compare(*build_codes(**{name: value}), {})
-    assert not result["pass"]
-    assert not result["quantities"][failed]["pass"]
+    assert not result.passed
+    assert not result.quantities[failed].passed
 
 
 def test_a_percentile_is_taken_from_the_finest_mesh():
     result = compare(*build_codes(utilization_p99=[0.6, 0.72]), {})
-    entry = result["quantities"]["S2 utilization_p99"]
-    assert entry["primary"] == 0.72
-    assert entry["primary_order"] is None
-    assert entry["primary_mesh_error"] == pytest.approx(0.04 / 0.76)  # 0.76 by order 2
+    entry = result.quantities["S2 utilization_p99"]
+    assert entry.primary == 0.72
+    assert entry.primary_order is None
+    assert entry.primary_mesh_error == pytest.approx(0.04 / 0.76)  # 0.76 by order 2
 
 
 def test_tolerances_can_be_set_and_have_defaults():
     codes = build_codes(work_knm=[21.5, 21.5])
-    assert not compare(*codes, {})["pass"]
-    assert compare(*codes, {"work": 0.1})["pass"]
-    assert compare(*codes, {"work": 0.1})["quantities"]["S2 work_knm"]["tolerance"] == 0.1
+    assert not compare(*codes, {}).passed
+    assert compare(*codes, {"work": 0.1}).passed
+    assert compare(*codes, {"work": 0.1}).quantities["S2 work_knm"].tolerance == 0.1
     assert TOLERANCES["work"] == 0.04
 
 
@@ -92,8 +95,8 @@ def test_a_tolerance_that_is_unknown_or_not_above_zero_is_refused(tolerance, wor
 def test_what_only_one_code_gives_is_listed_and_nothing_compared_is_no_pass():
     primary, independent = build_codes()
     less = Code([4, 8], {"S2": {"work_knm": [20.0, 20.0]}}, {}, 2.0)
-    assert "S2 utilization_p99" in compare(less, independent, {})["not_compared"]
-    assert not compare(Code([4, 8], {}, {}, 2.0), independent, {})["pass"]
+    assert "S2 utilization_p99" in compare(less, independent, {}).not_compared
+    assert not compare(Code([4, 8], {}, {}, 2.0), independent, {}).passed
     assert primary.limit("S2", "work_knm") == (20.0, 2.0)
 
 
@@ -108,7 +111,7 @@ def test_the_workbook_shows_every_quantity_and_marks_failures(tmp_path):
     assert sheet.freeze_panes == "C4"
     assert [cell.value for cell in sheet[3]][3:7] == ["in unit", "in unit", "%", "%"]
     rows = {(row[0].value, row[1].value): row for row in sheet.iter_rows(min_row=4)}
-    assert len(rows) == len(result["quantities"])
+    assert len(rows) == len(result.quantities)
     row = rows["S2", "work of the loads"]
     shown = ["kNm", 10, 20, pytest.approx(50.0), 4, "failed", 0, 0]
     assert [cell.value for cell in row[2:]] == shown
@@ -133,7 +136,7 @@ def test_what_has_not_settled_is_told_in_the_workbook(tmp_path):
     primary, independent = build_codes()
     independent.values["S2"]["work_knm"][-1] = None
     result = compare(primary, independent, {})
-    assert result["not_settled"] == ["S2 work_knm"] and not result["pass"]
+    assert result.not_settled == ["S2 work_knm"] and not result.passed
     write_comparison(tmp_path / "c.xlsx", "x", result)
     texts = [row[0] for row in openpyxl.load_workbook(tmp_path / "c.xlsx")["comparison"].values]
     assert "not settled within the steps of the independent code: S2 work_knm" in texts

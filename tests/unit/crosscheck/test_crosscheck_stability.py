@@ -85,15 +85,15 @@ def test_a_factor_that_does_not_settle_is_said_and_fails(analysis, monkeypatch):
     """When the steps run out there is no number, and the comparison names what is missing."""
     values = list_stability_values(analysis, False)
     primary = Code([4, 8], {c: {k: [e[k]] * 2 for k in e} for c, e in values.items()}, {}, 2.0)
-    assert compare(primary, build_independent([1, 2], [values, values]), {})["pass"]
+    assert compare(primary, build_independent([1, 2], [values, values]), {}).passed
     monkeypatch.setattr(buckling, "STEPS", 4)
     found = compute_buckling_factors(analysis.system, analysis.response)
     assert not found.settled.any() and found.steps == 4
     early = list_stability_values(analysis, False)
     assert {entry["buckling_factor"] for entry in early.values()} == {None}
     result = compare(primary, build_independent([1, 2], [values, early]), {})
-    assert not result["pass"] and not result["quantities"]
-    assert result["not_settled"] == ["S2 buckling_factor", "D2 buckling_factor"]
+    assert not result.passed and not result.quantities
+    assert result.not_settled == ["S2 buckling_factor", "D2 buckling_factor"]
 
 
 def test_second_order_solves_its_equation(analysis):

@@ -1,0 +1,135 @@
+"""The plain path and the fast one solve the same equations, on the demo's own final state."""
+
+import json
+
+import numpy as np
+import pytest
+
+import compare
+from crosscheck.analysis import analyse_model
+from crosscheck.buckling import compute_buckling_factors
+from crosscheck.errors import CrosscheckError, MechanismError
+from crosscheck.model import read_model
+from crosscheck.plain import find_plain_factors, find_plain_state
+from crosscheck.records import MULTIFRONTAL, SCIPY, Comparison, Limit, list_fields, to_data
+from crosscheck.second_order import solve_second_order
+from crosscheck.stability import analyse_mesh
+from crosscheck.system import SHEAR_FACTOR, Response
+from crosscheck_models import DATA, describe_small_fold, write_model
+
+DEMO = DATA / "demo_model.json"
+"""What rule `neutral_model` wrote of the demo: 9 x 8 lines, all edges held, 20 to 24 mm."""
+
+
+@pytest.fixture(scope="module")
+def both():
+    model = read_model(DEMO)
+    return [analyse_model(model, 1, solver=solver) for solver in (MULTIFRONTAL, SCIPY)]
+
+
+def difference(first, second):
+    """Largest difference of two arrays, relative to the largest value of the second."""
+    return np.abs(first - second).max() / np.abs(second).max()
+
+
+def test_displacements_and_reactions_are_equal(both):
+    """Two factorisations of one matrix: equal to conditioning times rounding, asked for is 1e-8."""
+    fast, plain = (analysis.response for analysis in both)
+    assert difference(fast.displacement, plain.displacement) < 1e-8
+    assert difference(fast.local, plain.local) < 1e-8
+    assert difference(fast.reaction_sum, plain.reaction_sum) < 1e-8
+
+
+def test_buckling_factors_are_equal(both):
+    """Block Lanczos and ARPACK: 1e-6, where the bound on the error of the first is set to that."""
+    found = compute_buckling_factors(both[0].system, both[0].response, tolerance=1e-6)
+    factors = find_plain_factors(both[1].system, both[1].response)
+    assert found.settled.all()
+    np.testing.assert_allclose(found.factor, factors, rtol=1e-6)
+    assert factors[0] != pytest.approx(factors[1], rel=0.1)  # not one number for all
+
+
+@pytest.mark.parametrize("scale", [1.0, 100.0])
+def test_second_order_states_are_equal(both, scale):
+    """Anderson's mixing and a new factor in each step, both to 1e-10: one state.
+
+    Under a hundred times the loads, a fifth of the buckling load, second order shows.
+    """
+    fast, plain = both
+    first = [_scale(analysis.response, scale) for analysis in both]
+    state = solve_second_order(fast.system, scale * fast.forces, first[0], 1e-10).response
+    for case in range(2):
+        one = [case]
+        start = Response(*(values[..., one] for values in vars(first[1]).values()))
+        own = find_plain_state(plain.system, scale * plain.forces[..., one], start)
+        assert difference(state.displacement[..., one], own.displacement) < 1e-8
+        assert difference(state.reaction_sum[:, one], own.reaction_sum) < 1e-8
+        grown = difference(own.displacement, start.displacement)
+        assert grown > (1e-1 if scale > 1 else 1e-4)
+
+
+def _scale(response, scale):
+    return Response(*(scale * values for values in vars(response).values()))
+
+
+def test_every_value_of_a_mesh_is_alike():
+    """What is compared with the other code, as both paths list it, at the study's tolerances."""
+    model = read_model(DEMO)
+    fast, plain = (
+        analyse_mesh(model, 1, SHEAR_FACTOR, True, True, solver=solver)
+        for solver in (MULTIFRONTAL, SCIPY)
+    )
+    assert fast.keys() == plain.keys() == {"S2", "D2", "S2 Th.II", "D2 Th.II"}
+    for combination, values in fast.items():
+        assert values.keys() == plain[combination].keys()
+        for name, value in values.items():
+            scale = np.abs(value).max()
+            np.testing.assert_allclose(value, plain[combination][name], rtol=0, atol=1e-5 * scale)
+
+
+def test_a_shell_that_can_move_is_refused(tmp_path):
+    data = describe_small_fold()
+    data["supported_edges"] = [[0, 1]]
+    for vertex in data["vertices_m"]:
+        vertex[2] = 0.0
+    model = read_model(write_model(tmp_path / "model.json", data))
+    with pytest.raises(MechanismError, match="supported_edges"):
+        analyse_model(model, 1, solver=SCIPY)
+
+
+@pytest.mark.parametrize("solver", [MULTIFRONTAL, SCIPY])
+def test_the_comparison_says_which_path_ran(tmp_path, solver):
+    model = read_model(write_model(tmp_path / "model.json", describe_small_fold()))
+    runs = [analyse_mesh(model, m, SHEAR_FACTOR, False, False) for m in (1, 2)]
+    values = {c: {name: [run[c][name] for run in runs] for name in runs[0][c]} for c in runs[0]}
+    primary = {"subdivisions": [1, 2], "order": 3.0, "combinations": values}
+    (tmp_path / "primary.json").write_text(json.dumps(primary))
+    files = [tmp_path / name for name in ("model.json", "primary.json", "c.json", "c.xlsx")]
+    compare.main(*files, subdivisions=[1, 2], stability=False, solver=solver)
+    result = json.loads(files[2].read_text())
+    assert result["pass"] and result["solver"] == solver
+    assert result["quantities"]["S2 work_knm"]["relative_difference"] < 1e-8
+    _check_keys(result, Comparison, extra={"design"})
+    _check_keys(result["quantities"]["S2 work_knm"], Limit)
+
+
+def _check_keys(data, record, extra=frozenset()):
+    """The file holds the fields of the record, those with a default where they say something."""
+    names = {said.name or name for name, _, said in list_fields(record)}
+    assert set(data) - extra <= names
+    optional = {"reason", "first"}
+    assert names - optional <= set(data)
+    for _, _, said in list_fields(record):
+        assert said.meaning
+
+
+def test_another_solver_is_refused():
+    with pytest.raises(CrosscheckError, match=r"'mumps'.*multifrontal and scipy"):
+        analyse_model(read_model(DEMO), 1, solver="mumps")
+
+
+def test_a_record_under_the_names_of_the_file():
+    empty = Comparison(None, {}, [], [], [], [], SCIPY, reason="a mechanism")
+    data = to_data(empty)
+    assert data["pass"] is None and data["reason"] == "a mechanism"
+    assert "first" not in data and "passed" not in data
