@@ -63,6 +63,8 @@ rule kinematics:
     output:
         table=f"{RESULTS}/kinematics.json",
         figure=f"{RESULTS}/kinematics.png",
+        rules=f"{RESULTS}/kinematics_rules.csv",
+        trajectories=f"{RESULTS}/kinematics_trajectories.png",
     params:
         sector_angle_deg=SECTOR_ANGLE_DEG,
     conda:

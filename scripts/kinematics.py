@@ -1,48 +1,47 @@
-"""Rule kinematics: what a Miura sheet can do, as numbers for claims C1, C2, C3 and C14."""
+"""Rule kinematics: what a Miura sheet can do, and how the paper's geometric rules fold it."""
 
 import math
+from dataclasses import asdict
 from pathlib import Path
 
 from foldshell.files.errors import user_errors
 from foldshell.files.whole import write_json
-from foldshell.folding.settings import FoldSettings
 from foldshell.kinematics.figure import draw_kinematics
-from foldshell.kinematics.study import study_force_ratios, study_sheet, tabulate_ratios
+from foldshell.kinematics.geometric_rules import tabulate_differences
+from foldshell.kinematics.study import SWEEPS, Sweeps, study_sheets, sweep_surfaces, tabulate_ratios
+from foldshell.kinematics.trajectory_figure import draw_trajectories
+from foldshell.workbook.tables import write_csv
 
 
 def main(
     table_path: str | Path,
+    rules_path: str | Path,
+    figure_path: str | Path,
+    trajectories_path: str | Path,
     *,
     sector_angle_deg: float = 60.0,
     densities: tuple[tuple[int, int], ...] = ((7, 8), (9, 10), (11, 12)),
-    span_m: float = 28.0,
-    height_m: float = 10.0,
-    attractions: tuple[float, ...] = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0),
-    panel_force_ratios: tuple[float, ...] = (1e-4, 1e-2, 1.0, 100.0),
-    explicit_attractions: tuple[float, ...] = (0.01, 1.0, 100.0),
-    explicit_panel_force_ratios: tuple[float, ...] = (1e-2, 1.0),
-    figure_path: str | Path | None = None,
+    sweeps: Sweeps = SWEEPS,
 ) -> None:
-    """Write kinematics.json and, with `figure_path`, a picture of it.
+    """Write the table of everything, the rules' differences to the closed form, two pictures.
 
     `ratios`: Poisson's ratios; `sheets`: mechanisms, isometry residuals and soft modes by
-    density; `force_ratios`: the sweep of force strengths of claim C3, with fewer of them by the
-    explicit engine, which is stopped after 500 iterations.
+    density; `force_ratios`: the sweep of force strengths of claim C3; `geometric_rules`: Fig. 1
+    of the paper against the closed form.
     """
     gamma = math.radians(sector_angle_deg)
-    implicit = attractions, panel_force_ratios, FoldSettings()
-    explicit = FoldSettings(engine="averaged_projections", max_iterations=10)
-    sweeps = implicit, (explicit_attractions, explicit_panel_force_ratios, explicit)
+    differences = tabulate_differences(gamma)
+    rows = [asdict(row) for row in differences]
     table = {
         "sector_angle_deg": sector_angle_deg,
         "ratios": tabulate_ratios(gamma),
-        "sheets": [study_sheet(gamma, *density) for density in densities],
-        "force_ratios": [
-            row for sweep in sweeps for row in study_force_ratios(span_m, height_m, gamma, *sweep)
-        ],
+        "sheets": study_sheets(gamma, densities),
+        "force_ratios": sweep_surfaces(gamma, sweeps),
+        "geometric_rules": rows,
     }
-    if figure_path:
-        draw_kinematics(figure_path, table)
+    draw_kinematics(figure_path, table)
+    draw_trajectories(trajectories_path, gamma, differences)
+    write_csv(rules_path, list(rows[0]), rows)
     write_json(table_path, table)
 
 
@@ -50,6 +49,8 @@ if "snakemake" in globals():
     with user_errors():
         main(
             snakemake.output.table,  # noqa: F821
-            figure_path=snakemake.output.get("figure"),  # noqa: F821
+            snakemake.output.rules,  # noqa: F821
+            snakemake.output.figure,  # noqa: F821
+            snakemake.output.trajectories,  # noqa: F821
             **snakemake.params,  # noqa: F821
         )

@@ -2,7 +2,7 @@
 
 import math
 from collections.abc import Sequence
-from dataclasses import asdict
+from dataclasses import asdict, dataclass
 from typing import Any
 
 from foldshell.folding.settings import FoldSettings
@@ -50,20 +50,43 @@ def study_sheet(sector_angle: float, zigzags: int, strips: int) -> dict[str, Any
     }
 
 
-def study_force_ratios(
-    span: float,
-    height: float,
-    sector_angle: float,
-    attractions: Sequence[float],
-    panels: Sequence[float],
-    settings: FoldSettings,
-) -> list[dict[str, Any]]:
-    """Sweep the strengths on a dome and a saddle, quadrilaterals and triangles, by one engine."""
+@dataclass(frozen=True)
+class Sweeps:
+    """Strengths of the forces that are tried on a dome and a saddle of 28 x 28 x 10 m.
+
+    Fewer by averaged projections, the engine of the paper's kind, which is stopped after 500
+    iterations; strengths are non-dimensional.
+    """
+
+    attractions: tuple[float, ...] = (0.01, 0.1, 1.0, 10.0, 100.0, 1000.0)
+    panels: tuple[float, ...] = (1e-4, 1e-2, 1.0, 100.0)
+    explicit_attractions: tuple[float, ...] = (0.01, 1.0, 100.0)
+    explicit_panels: tuple[float, ...] = (1e-2, 1.0)
+    span_m: float = 28.0
+    height_m: float = 10.0
+
+
+SWEEPS = Sweeps()
+
+
+def study_sheets(sector_angle: float, densities: Sequence[tuple[int, int]]) -> list[dict[str, Any]]:
+    """Study one sheet for each pair of zig-zags and strips."""
+    return [study_sheet(sector_angle, *density) for density in densities]
+
+
+def sweep_surfaces(sector_angle: float, sweeps: Sweeps) -> list[dict[str, Any]]:
+    """Fold quadrilaterals and triangles by every pair of strengths, by either engine in turn."""
+    explicit = FoldSettings(engine="averaged_projections", max_iterations=10)
+    engines = [
+        (sweeps.attractions, sweeps.panels, FoldSettings()),
+        (sweeps.explicit_attractions, sweeps.explicit_panels, explicit),
+    ]
     rows = []
-    for surface in SURFACES:
-        target = make_target(surface, span, height)
-        angle = math.degrees(sector_angle)
-        sheet = design_sheet("miura", target.section_lengths(), 15, 16, angle, 0)
-        trials = sweep_force_ratios(sheet, target, settings, attractions, panels)
-        rows += [{"surface": surface, **asdict(trial)} for trial in trials]
+    for attractions, panels, settings in engines:
+        for surface in SURFACES:
+            target = make_target(surface, sweeps.span_m, sweeps.height_m)
+            angle = math.degrees(sector_angle)
+            sheet = design_sheet("miura", target.section_lengths(), 15, 16, angle, 0)
+            trials = sweep_force_ratios(sheet, target, settings, attractions, panels)
+            rows += [{"surface": surface, **asdict(trial)} for trial in trials]
     return rows
