@@ -23,26 +23,26 @@ def main(
 ) -> None:
     """Read folded.npz, write mesh.npz (for the analysis) and mesh.vtu (to look at).
 
-    `edge_beam` holds the depth and the thickness of its strips, m. Strips that pierce the sheet are
+    `edge_beam` holds the depth and the thickness of its panels, m; one that pierces the sheet is
     refused.
     """
-    folded, strips = read_arrays(folded_path), make_edge_beam(*edge_beam)
+    folded, beam = read_arrays(folded_path), make_edge_beam(*edge_beam)
     try:
-        arrays = mesh_folded_sheet(folded, support, subdivisions, edge_beam=strips)
+        arrays = mesh_folded_sheet(folded, support, subdivisions, edge_beam=beam)
     except ValueError as error:
         raise InputError(f"design {design}: mesh: {error}") from None
-    if strips:
-        _check_strips(arrays, len(folded["facets"]), design)
+    if beam:
+        _check_edge_beam(arrays, len(folded["facets"]), design)
     write_mesh(mesh_path, arrays)
     write_mesh_vtu(vtu_path, read_mesh(mesh_path)[0], arrays)
 
 
-def _check_strips(arrays: Mapping[str, Any], sheet: int, design: str) -> None:
+def _check_edge_beam(arrays: Mapping[str, Any], sheet: int, design: str) -> None:
     place = find_piercing(arrays["vertices"], arrays["facets"], sheet)
     if place is not None:
         raise InputError(
-            f"design {design}: edge_beam_depth_m: the strip pierces the sheet near "
-            f"{place.round(2).tolist()} m: a strip clear of it is allowed, such as one of the "
+            f"design {design}: edge_beam_depth_m: a panel pierces the sheet near "
+            f"{place.round(2).tolist()} m: an edge beam clear of it is allowed, such as one of the "
             "other sign, which stands on the other side of the border"
         )
 

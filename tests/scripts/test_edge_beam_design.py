@@ -28,7 +28,7 @@ from foldshell.workbook.read_thickness import read_thickness
 from sizing_case import DESIGN, PANELS, SPAN, STRIP, ZIGZAG, corrugated_sheet, stage
 
 BEAM = [0.4, 0.1]
-STRIPS = 2 * (ZIGZAG - 1)
+BEAM_PANELS = 2 * (ZIGZAG - 1)
 PLACE = {"zigzag": ZIGZAG, "strip": STRIP}
 SIZES = {"edge_beam_depth_m": BEAM[0], "edge_beam_thickness_m": BEAM[1]}
 
@@ -74,18 +74,18 @@ def folder(tmp_path_factory):
     return folder
 
 
-def test_strips_are_reported_and_not_sized(folder):
-    """Volume of panels and strips adds up; the strips' utilization stands on its own."""
+def test_edge_beam_panels_are_reported_and_not_sized(folder):
+    """Volume of sheet and edge beam adds up; the edge beam's utilization stands on its own."""
     report = read_json(folder / "sizing/final.json")
     arrays = read_arrays(folder / "sizing/final.npz")
     shell, mesh_arrays = read_mesh(folder / "mesh.npz")
     corner = mesh_arrays["vertices"][mesh_arrays["facets"]]
     area = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
     area = np.linalg.norm(area, axis=1) / 2
-    sheet, strips = np.split(area, [2 * PANELS])
+    sheet, beam = np.split(area, [2 * PANELS])
     assert arrays["thickness"].shape == arrays["utilization_panel_mean"].shape == (PANELS,)
-    assert report["edge_beam_volume_m3"] == pytest.approx(strips.sum() * BEAM[1])
-    total = 0.06 * sheet.sum() + strips.sum() * BEAM[1]
+    assert report["edge_beam_volume_m3"] == pytest.approx(beam.sum() * BEAM[1])
+    total = 0.06 * sheet.sum() + beam.sum() * BEAM[1]
     assert report["volume_m3"] == pytest.approx(total)
     assert report["area_m2"] == pytest.approx(sheet.sum())
     cell = arrays["utilization_cell"]
@@ -117,7 +117,7 @@ def test_workbooks_and_summary_show_the_edge_beam(folder):
 
 
 @pytest.mark.slow
-def test_pictures_and_fields_show_the_strips(folder):
+def test_pictures_and_fields_show_the_edge_beam(folder):
     names = ("thickness", "classes", "utilization", "planarity")
     pictures = {name: folder / f"{name}.png" for name in names}
     loop = folder / "sizing"
@@ -131,37 +131,37 @@ def test_pictures_and_fields_show_the_strips(folder):
     fields = {
         name: values[0] for name, values in meshio.read(folder / "design.vtu").cell_data.items()
     }
-    strips = fields["panel"] >= PANELS
-    assert np.unique(fields["panel"]).size == PANELS + STRIPS
-    assert (fields["thickness"][strips] == BEAM[1]).all()
-    assert (fields["thickness_class"][strips] == 0).all()
-    assert (fields["class_thickness"][strips] == BEAM[1]).all()
+    beam = fields["panel"] >= PANELS
+    assert np.unique(fields["panel"]).size == PANELS + BEAM_PANELS
+    assert (fields["thickness"][beam] == BEAM[1]).all()
+    assert (fields["thickness_class"][beam] == 0).all()
+    assert (fields["class_thickness"][beam] == BEAM[1]).all()
 
 
-def test_page_shows_the_strips(folder):
-    """Thickness and utilization of panels and strips; planarity and class of panels only."""
+def test_page_shows_the_edge_beam(folder):
+    """Thickness and utilization of sheet and edge beam; planarity and class of panels only."""
     loop = folder / "sizing"
     inputs = [folder / "mesh.npz", folder / "folded.npz", loop / "final.npz", loop / "final.json"]
     state = read_state("small", *inputs, stage("size")["combinations"], loop / "classes.npz")
     view = make_view(view_design(state, stage("size"), SPAN, "miura"))
     arrays = unpack_arrays(*pack_arrays(view.arrays))
-    strips = slice(PANELS, PANELS + STRIPS)
+    beam = slice(PANELS, PANELS + BEAM_PANELS)
     known = read_arrays(loop / "final.npz")["edge_beam_utilization_panel_mean"]
-    assert known.shape == (STRIPS,)
+    assert known.shape == (BEAM_PANELS,)
     half_step = 1e-5 * max(state.panel_utilization)
     for name in ("panel_utilization", "field_utilization_mean"):
-        assert arrays[name][strips] == pytest.approx(known, abs=half_step)
-    assert arrays["panel_thickness"][strips] == pytest.approx(BEAM[1], abs=1e-6)
-    assert arrays["field_thickness"][strips] == pytest.approx(1e3 * BEAM[1], abs=1e-3)
+        assert arrays[name][beam] == pytest.approx(known, abs=half_step)
+    assert arrays["panel_thickness"][beam] == pytest.approx(BEAM[1], abs=1e-6)
+    assert arrays["field_thickness"][beam] == pytest.approx(1e3 * BEAM[1], abs=1e-3)
     for name in ("field_planarity", "field_class"):
-        assert np.isnan(arrays[name][strips]).all()
+        assert np.isnan(arrays[name][beam]).all()
         assert np.isfinite(arrays[name][:PANELS]).all()
     assert len(arrays["panel_zigzag"]) == PANELS
-    assert arrays["panel"].max() == PANELS + STRIPS - 1
+    assert arrays["panel"].max() == PANELS + BEAM_PANELS - 1
 
 
-def test_gradients_of_the_constraints_leave_the_strips_out(folder):
-    """d(utilization of the strips' worst panel)/dt of a panel against a central difference."""
+def test_gradients_of_the_constraints_leave_the_edge_beam_out(folder):
+    """d(utilization of the edge beam's worst panel)/dt of a panel against a central difference."""
     limit = 0.3
     settings = stage("analyse", rule="optimality", utilization_max=limit, utilization_min=0.1)
     settings = settings | {"analysis": settings["analysis"] | {"second_order": False}}
@@ -172,16 +172,16 @@ def test_gradients_of_the_constraints_leave_the_strips_out(folder):
         return case.run(IterationTask(0, SPAN, thickness, {}, {}))
 
     report, arrays = run(base)
-    strips = arrays["edge_beam_utilization_panel_mean"]
+    beam = arrays["edge_beam_utilization_panel_mean"]
     assert arrays["panel_area"].shape == (PANELS,)
     assert arrays["constraint_gradient"].shape == (len(arrays["constraint_value"]), PANELS)
-    assert report["criteria"]["edge_beam_utilization"]["value"] == strips.max() > limit
+    assert report["criteria"]["edge_beam_utilization"]["value"] == beam.max() > limit
     above = (arrays["utilization_panel_mean"] > limit).sum()
     assert report["panels_above_one"] == above > 0 and report["panels_at_bound"] == PANELS
-    row = int(np.argmin(np.abs(arrays["constraint_value"] - strips.max() / limit)))
+    row = int(np.argmin(np.abs(arrays["constraint_value"] - beam.max() / limit)))
     panel = int(np.abs(arrays["constraint_gradient"][row]).argmax())
     step = 1e-6 * np.eye(PANELS)[panel]
     up, down = (run(base + sign * step)[1] for sign in (1, -1))
     name = "edge_beam_utilization_panel_mean"
-    slope = (up[name] - down[name])[strips.argmax()] / 2e-6 / limit
+    slope = (up[name] - down[name])[beam.argmax()] / 2e-6 / limit
     assert arrays["constraint_gradient"][row, panel] == pytest.approx(slope, rel=1e-3)

@@ -145,17 +145,17 @@ def test_refine_of_a_mechanism_gives_its_reason_in_place_of_numbers(folder, monk
 
 @pytest.fixture
 def beam_folder(tmp_path):
-    """Return a folder with the files of a sheet on two edges, with strips along the others."""
+    """Return a folder with the files of a sheet on two edges, with edge beams along the others."""
     run_mesh(tmp_path, corrugated_sheet(), subdivisions=4, edge_beam=[0.4, 0.1])
     write_arrays(tmp_path / "final.npz", {"thickness": np.linspace(0.05, 0.09, PANELS)})
     return tmp_path
 
 
-def test_a_strip_that_pierces_the_sheet_is_refused(tmp_path):
+def test_an_edge_beam_that_pierces_the_sheet_is_refused(tmp_path):
     """A leaf of the sheet that is folded back under its own border stands in the way."""
     sheet = corrugated_sheet()
     sheet["vertices"][sheet["strip"] == 1] += [-3.5, 0, -0.9]
-    with pytest.raises(InputError, match="design small: edge_beam_depth_m: the strip pierces"):
+    with pytest.raises(InputError, match="design small: edge_beam_depth_m: a panel pierces"):
         run_mesh(tmp_path, sheet, edge_beam=[3.0, 0.1])
     assert not (tmp_path / "mesh.npz").exists()
 
@@ -171,10 +171,10 @@ def test_neutral_model_of_an_edge_beam_names_the_panels_without_area_loads(beam_
 
 @pytest.mark.slow
 def test_a_design_with_an_edge_beam_passes_the_cross_check(beam_folder):
-    """Both codes on strips and sheet, each with loads, elements and solver of its own.
+    """Both codes on edge beams and sheet, each with loads, elements and solver of its own.
 
     Measured: 4 % apart in the buckling factor, 3 % at most in all else. It fails where either code
-    puts area loads on the strips.
+    puts area loads on the edge beams.
     """
     crosscheck = runpy.run_path(str(SCRIPTS / "crosscheck.py"))["main"]
     run_neutral_model(beam_folder)

@@ -37,9 +37,9 @@ def cell_fields(state: DesignState, elasticity: Elasticity) -> dict[str, np.ndar
         "thickness": cell_thickness(state),
     }
     if state.classes:
-        strips = state.strip_thickness
-        number = np.append(state.classes["panel_class"], np.zeros(len(strips), dtype=int))
-        thickness = np.append(state.classes["thickness"], strips)
+        edge_beam = state.edge_beam_thickness
+        number = np.append(state.classes["panel_class"], np.zeros(len(edge_beam), dtype=int))
+        thickness = np.append(state.classes["thickness"], edge_beam)
         fields["thickness_class"] = number[state.cell_panel].astype(np.int32)
         fields["class_thickness"] = thickness[state.cell_panel]
     if state.utilization is not None:

@@ -22,7 +22,7 @@ def make_neutral_model(
     Facets are flat triangles, counter-clockwise seen from above; every mesh node on a supported
     edge is pinned (translations only). The superimposed dead load acts against the normal of the
     sheet, also where a facet overhangs (`dead_side`). No finite element mesh is given: the reader
-    makes its own. The strips of an edge beam are panels of fixed thickness, the last ones; they
+    makes its own. The panels of an edge beam have fixed thickness and come last; they
     are listed as `self_weight_only_panels`, on which no other load acts.
 
     Parameters
@@ -35,7 +35,7 @@ def make_neutral_model(
     groups, compare = settings["combinations"], settings["crosscheck"]
     fixed = mesh.get("fixed_thickness", np.empty(0))
     sized = len(panel_thickness)
-    strips = list(range(sized, sized + len(fixed)))
+    edge_beam_panels = list(range(sized, sized + len(fixed)))
     return {
         "format": EDGE_BEAM_FORMAT if len(fixed) else FORMAT,
         "design": design,
@@ -43,7 +43,7 @@ def make_neutral_model(
         "facets": mesh["facets"].tolist(),
         "facet_panel": mesh["facet_panel"].tolist(),
         "panel_thickness_m": [*panel_thickness.tolist(), *fixed.tolist()],
-        **({"self_weight_only_panels": strips} if strips else {}),
+        **({"self_weight_only_panels": edge_beam_panels} if edge_beam_panels else {}),
         "supported_edges": mesh["support_pairs"].tolist(),
         "material": {
             "youngs_modulus_kpa": material["youngs_modulus"],

@@ -67,7 +67,7 @@ def specify_thickness(subject: DesignView) -> FigureSpec:
     volume, area = state.report["volume_m3"], state.report["area_m2"]
     least, most = (f"{value:.0f}" for value in (panels.min(), panels.max()))
     facts = (
-        f"{least if least == most else f'{least} to {most}'} mm{_describe_strips(state)}; "
+        f"{least if least == most else f'{least} to {most}'} mm{_describe_edge_beam(state)}; "
         f"volume {volume:.4g} m³, {1e3 * volume / area:.0f} mm on average"
     )
     return specify_field(
@@ -75,10 +75,10 @@ def specify_thickness(subject: DesignView) -> FigureSpec:
     )
 
 
-def _describe_strips(state: DesignState) -> str:
+def _describe_edge_beam(state: DesignState) -> str:
     """Return the thickness of the edge beam in words, nothing where there is none."""
-    strips = 1e3 * state.strip_thickness
-    return f", edge beam {strips.max():.0f} mm" if len(strips) else ""
+    edge_beam = 1e3 * state.edge_beam_thickness
+    return f", edge beam {edge_beam.max():.0f} mm" if len(edge_beam) else ""
 
 
 def specify_classes(subject: DesignView) -> FigureSpec:
@@ -92,7 +92,7 @@ def specify_classes(subject: DesignView) -> FigureSpec:
         f"{k}: {panels[number == k].max():.1f} mm in {(number == k).sum()} panels"
         for k in np.unique(number)
     ]
-    values = np.append(panels, 1e3 * state.strip_thickness)
+    values = np.append(panels, 1e3 * state.edge_beam_thickness)
     scale = make_scale(np.append(values, 1e3 * state.final["thickness"]), "YlGnBu")
     title, quantity = "Thickness classes", "thickness of the class [mm]"
     return specify_field(
@@ -112,7 +112,7 @@ def specify_utilization(subject: DesignView) -> FigureSpec:
         f"panel mean at most {report['utilization_panel_mean_max']:.2f}; pointwise 99 % of the "
         f"area at most {report['utilization_p99']:.2f}, mean {report['utilization_mean']:.2f}"
     )
-    if len(state.strip_thickness):
+    if len(state.edge_beam_thickness):
         facts += f"; edge beam at most {report['edge_beam_utilization_max']:.2f}"
     words = f"utilization [-], largest of {state.strength[0]} to {state.strength[-1]}"
     if scale.limit is None:
@@ -156,7 +156,7 @@ def specify_planarity(subject: DesignView) -> FigureSpec:
     state = subject.state
     values = 100 * state.folded["planarity"]
     facts = f"at most {values.max():.2f} %, mean {values.mean():.2f} % (0: panel is planar)"
-    values = np.append(values, np.zeros_like(state.strip_thickness))
+    values = np.append(values, np.zeros_like(state.edge_beam_thickness))
     quantity = "distance of diagonals / their mean length [%]"
     scale = make_scale(values, zero=True, least=RATIO_RANGE_MIN)
     return specify_field(subject, "Planarity", facts, quantity, values[state.cell_panel], scale)
@@ -169,7 +169,7 @@ def specify_strain(subject: DesignView) -> FigureSpec:
         return specify_nothing(subject, "Folding strain", "no strain of the folding")
     values = 100 * state.folded["strain"]
     facts = f"at most {values.max():.2f} %, mean {values.mean():.2f} % (0: sides keep their length)"
-    values = np.append(values, np.zeros(2 * len(state.strip_thickness)))
+    values = np.append(values, np.zeros(2 * len(state.edge_beam_thickness)))
     quantity = "largest change of a facet's sides / flat length [%]"
     scale = make_scale(values, "cividis", zero=True, least=RATIO_RANGE_MIN)
     cells = np.repeat(values[state.mesh.facet], state.cells.order**2)

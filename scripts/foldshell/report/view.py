@@ -98,7 +98,7 @@ def _make_grid(subject: DesignView) -> _Grid:
 def _panel_values(state: DesignState) -> dict[str, np.ndarray]:
     """Return what picking a panel shows, (P,).
 
-    Thickness and utilization are (P + B,) with an edge beam's strips.
+    Thickness and utilization are (P + B,) with an edge beam's panels.
     """
     quads = state.folded["quads"]
     values = {
@@ -115,8 +115,8 @@ def _panel_values(state: DesignState) -> dict[str, np.ndarray]:
 
 
 def _pad(state: DesignState, values: np.ndarray) -> np.ndarray:
-    """Return panel values (P,) with nan for the strips of an edge beam behind them, (P + B,)."""
-    return np.append(values, np.full(len(state.strip_thickness), np.nan))
+    """Return panel values (P,) with nan for the panels of an edge beam behind them, (P + B,)."""
+    return np.append(values, np.full(len(state.edge_beam_thickness), np.nan))
 
 
 def _fields(subject: DesignView, grid: _Grid) -> dict[str, tuple]:

@@ -82,7 +82,7 @@ def study_mesh(
     folded : arrays of folded.npz
     panel_thickness : (P,) m
     subdivisions : of the mesh in use
-    edge_beam : its strips count among the panels
+    edge_beam : its panels count among the others
     """
     state = (folded, support, edge_beam, panel_thickness, material, loads, combinations)
     in_use = {"subdivisions": subdivisions}

@@ -26,7 +26,7 @@ class DesignState:
     (C, 3) those cells; `shell`, `folded`, `final` hold the arrays of mesh.npz, folded.npz,
     final.npz and `report` is final.json. `strength` and `deflection` name the combinations in
     the order of the displacement columns. `classes` hold the arrays of sizing/classes.npz. Values
-    of panels (P,) go before those of the edge beam's strips (B,), which have panels of their own.
+    of panels (P,) go before those of the edge beam (B,), which have panels of their own.
     """
 
     name: str
@@ -47,20 +47,20 @@ class DesignState:
         return self.strength + self.deflection
 
     @property
-    def strip_thickness(self) -> np.ndarray:
-        """Thickness of the edge beam's strips, (B,) m; empty where there is none."""
+    def edge_beam_thickness(self) -> np.ndarray:
+        """Thickness of the edge beam's panels, (B,) m; empty where there is none."""
         return self.shell.get("fixed_thickness", np.empty(0))
 
     @property
     def panel_thickness(self) -> np.ndarray:
-        """Thickness of panels and strips, (P + B,) m."""
-        return np.concatenate([self.final["thickness"], self.strip_thickness])
+        """Thickness of sized panels and edge-beam panels, (P + B,) m."""
+        return np.concatenate([self.final["thickness"], self.edge_beam_thickness])
 
     @property
     def panel_utilization(self) -> np.ndarray:
-        """Mean utilization of panels and strips, (P + B,)."""
-        strips = self.final.get("edge_beam_utilization_panel_mean", np.empty(0))
-        return np.concatenate([self.final["utilization_panel_mean"], strips])
+        """Mean utilization of sized panels and edge-beam panels, (P + B,)."""
+        edge_beam = self.final.get("edge_beam_utilization_panel_mean", np.empty(0))
+        return np.concatenate([self.final["utilization_panel_mean"], edge_beam])
 
     @property
     def cell_panel(self) -> np.ndarray:

@@ -44,7 +44,7 @@ class ShellModel:
     """A geometry ready for any thickness: mesh, operators, pattern, supported nodes.
 
     `fixed_thickness` (B,) m is that of the last B panels: not sized, they carry nothing but their
-    own weight (the strips of an edge beam).
+    own weight (the panels of an edge beam).
     """
 
     mesh: ShellMesh

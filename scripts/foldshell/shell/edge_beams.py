@@ -1,8 +1,8 @@
-"""Edge beams: strips of shell that hang from the unsupported edges of a folded sheet.
+"""Edge beams: panels of shell that hang from the unsupported edges of a folded sheet.
 
 Each free border edge a-b gets the parallelogram a, b, b - d z, a - d z: vertical, so that it is
 planar and well defined however the border runs, and so that neighbours share their vertical edge.
-With a depth d below 0 the strip stands up from the border, which suits sheets that fall away from
+With a depth d below 0 the panel stands up from the border, which suits sheets that fall away from
 it steeply.
 """
 
@@ -15,14 +15,14 @@ from foldshell.shell.reference import EDGES
 
 @dataclass(frozen=True)
 class EdgeBeam:
-    """Depth below the edge (above it if negative) and thickness of the strip, m."""
+    """Depth below the edge (above it if negative) and thickness of its panels, m."""
 
     depth: float
     thickness: float
 
 
 def make_edge_beam(depth: float, thickness: float) -> EdgeBeam | None:
-    """Return the strip, or None where a size is 0; the table of designs takes both or none."""
+    """Return the edge beam, or None where a size is 0; the table of designs takes both or none."""
     return EdgeBeam(depth, thickness) if depth and thickness else None
 
 
@@ -44,12 +44,12 @@ def free_edges(facets: np.ndarray, held: np.ndarray) -> np.ndarray:
     return edges[((count == 1) & ~np.isin(known, held_keys))[inverse]]
 
 
-def hang_strips(
+def hang_edge_beam_panels(
     vertices: np.ndarray, facets: np.ndarray, edges: np.ndarray, depth: float
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return vertices and facets with two facets more an edge, in the order of the edges.
 
-    The positive side of the sheet continues on the outer side of the strip: over their common edge
+    The positive side of the sheet continues on the outer side of the panel: over their common edge
     both facets run in opposite directions. Parallelograms are cut along their shorter diagonal.
 
     Parameters

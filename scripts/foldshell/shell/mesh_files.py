@@ -6,7 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from foldshell.files.whole import atomic_path, read_arrays, write_arrays
-from foldshell.shell.edge_beams import EdgeBeam, facet_edges, free_edges, hang_strips
+from foldshell.shell.edge_beams import EdgeBeam, facet_edges, free_edges, hang_edge_beam_panels
 from foldshell.shell.mesh import ShellMesh, build_mesh, edge_polyline_nodes
 from foldshell.shell.reference import lagrange_basis, lattice_points
 from foldshell.shell.supports import supported_pairs
@@ -24,16 +24,16 @@ def mesh_folded_sheet(
     See `build_mesh` for subdivisions and order.
 
     Besides the fields of `ShellMesh` these are vertices (V, 3) m, facets (F, 3), facet_panel (F,),
-    support_pairs (K, 2) as vertices and supported_nodes (S,). With an edge beam the strip's
+    support_pairs (K, 2) as vertices and supported_nodes (S,). With an edge beam its
     vertices, facets and panels stand after those of the sheet, and fixed_thickness (B,) m holds
-    the thickness of the last B panels, the strip's, which are not sized.
+    the thickness of the last B panels, the edge beam's, which are not sized.
     """
     vertices, facets = folded["vertices"], folded["facets"]
     pairs = supported_pairs(facet_edges(facets), folded["zigzag"], folded["strip"], support)
     fixed = {}
     if edge_beam is not None:
         edges = free_edges(facets, pairs)
-        vertices, facets = hang_strips(vertices, facets, edges, edge_beam.depth)
+        vertices, facets = hang_edge_beam_panels(vertices, facets, edges, edge_beam.depth)
         fixed["fixed_thickness"] = np.full(len(edges), edge_beam.thickness)
     facet_panel = np.arange(len(facets)) // 2
     mesh = build_mesh(vertices, facets, facet_panel, subdivisions, order)

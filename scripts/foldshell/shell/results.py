@@ -15,8 +15,8 @@ def panel_area(model: ShellModel) -> np.ndarray:
     return np.bincount(model.mesh.panel, model.operators.geometry.area)
 
 
-def panels_beside_strips(model: ShellModel) -> np.ndarray:
-    """Return the sized panel (B,) from whose border each strip of an edge beam hangs."""
+def panels_beside_edge_beam(model: ShellModel) -> np.ndarray:
+    """Return the sized panel (B,) from whose border each panel of an edge beam hangs."""
     mesh, self_weight_only = model.mesh, model.self_weight_only
     owner = np.full(mesh.edge_count, -1)
     owner[mesh.element_edges[~self_weight_only]] = mesh.panel[~self_weight_only][:, None]

@@ -95,7 +95,7 @@ def judge_iteration(now: IterationState, rule: StopRule) -> Verdict:
 
 def evaluate_criteria(now: IterationState, rule: StopRule) -> dict[str, dict[str, object]]:
     """Return {name: value, limit, met} of Table 3, of the relative change of volume, and of the
-    strips where there is an edge beam."""
+    edge beam where there is one."""
     highest = float(now.utilization.max())
     limit = now.span / rule.displacement_limit_span_over
     change = None if now.previous_volume is None else abs(now.volume - now.previous_volume)

@@ -19,7 +19,7 @@ from foldshell.shell.analysis import AnalysisOptions, AnalysisResult, ShellModel
 from foldshell.shell.results import (
     largest_downward,
     panel_area,
-    panels_beside_strips,
+    panels_beside_edge_beam,
     reaction_imbalance,
     support_reactions,
     translations,
@@ -102,7 +102,7 @@ class AnalysisCase:
 class _Analysed:
     """What the report of an analysis is made of; `thickness` is that of elements, (E,) m.
 
-    `panels` and `strips` hold the utilization of the sized panels (P,) and of the strips of an edge
+    `panels` and `edge_beam_panels` hold the utilization of the sized panels (P,) and of an edge
     beam (B,) by measure. They are empty, and `utilization` is None, where the analysis left no
     displacements to rely on.
     """
@@ -113,7 +113,7 @@ class _Analysed:
     result: AnalysisResult
     utilization: Utilization | None = None
     panels: Mapping[str, np.ndarray] = field(default_factory=dict)
-    strips: Mapping[str, np.ndarray] = field(default_factory=dict)
+    edge_beam_panels: Mapping[str, np.ndarray] = field(default_factory=dict)
 
     @property
     def downward(self) -> tuple[float, int, str]:
@@ -135,11 +135,11 @@ def _analyse(case: AnalysisCase, task: IterationTask) -> _Analysed:
         return done
     strength = result.displacement[:, : len(plan.strength)]
     utilization = compute_utilization(model, strength, thickness, material)
-    panels, strips = {}, {}
+    panels, edge_beam_panels = {}, {}
     for name in MEASURES:
         values = panel_utilization(model, utilization.cell, name)
-        panels[name], strips[name] = np.split(values, [model.sized_panels])
-    return replace(done, utilization=utilization, panels=panels, strips=strips)
+        panels[name], edge_beam_panels[name] = np.split(values, [model.sized_panels])
+    return replace(done, utilization=utilization, panels=panels, edge_beam_panels=edge_beam_panels)
 
 
 def _describe(done: _Analysed) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
@@ -165,7 +165,7 @@ def _describe(done: _Analysed) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
 
 
 def _split_area(model: ShellModel) -> list[np.ndarray]:
-    """Return the areas of the sized panels (P,) and of the strips (B,), m2."""
+    """Return the areas of the sized panels (P,) and of the edge beam's (B,), m2."""
     return np.split(panel_area(model), [model.sized_panels])
 
 
@@ -185,7 +185,7 @@ def _largest_residual(result: AnalysisResult) -> float | None:
 
 def _judge(done: _Analysed, volume: float) -> Verdict:
     task, result, rule = done.task, done.result, done.case.rule
-    strips = done.strips.get(rule.measure, np.empty(0))
+    edge_beam = done.edge_beam_panels.get(rule.measure, np.empty(0))
     return judge_iteration(
         IterationState(
             iteration=task.iteration,
@@ -199,7 +199,7 @@ def _judge(done: _Analysed, volume: float) -> Verdict:
             previous_volume=task.previous.get("volume_m3"),
             previous_thickness=task.previous_arrays.get("thickness"),
             previous_stationary=task.previous.get("stationary_iterations", 0),
-            edge_beam=float(strips.max()) if len(strips) else None,
+            edge_beam=float(edge_beam.max()) if len(edge_beam) else None,
         ),
         rule,
     )
@@ -231,18 +231,20 @@ def _describe_sheet(done: _Analysed) -> tuple[dict[str, Any], dict[str, np.ndarr
 
 
 def _describe_edge_beam(done: _Analysed) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
-    """Return volume and utilization of the strips, and the panels that they hang from; nothing
-    where there are no strips."""
+    """Return volume and utilization of the edge beam's panels, and the panels that they
+    hang from; nothing where there is no edge beam."""
     model = done.case.model
     if not len(model.fixed_thickness):
         return {}, {}
     report = {
         "edge_beam_volume_m3": float(_split_area(model)[1] @ model.fixed_thickness),
         "edge_beam_utilization_max": float(done.utilization.cell[model.self_weight_only].max()),
-        "edge_beam_utilization_panel_mean_max": float(done.strips["panel_mean"].max()),
+        "edge_beam_utilization_panel_mean_max": float(done.edge_beam_panels["panel_mean"].max()),
     }
-    arrays = {f"edge_beam_utilization_{name}": values for name, values in done.strips.items()}
-    return report, arrays | {"edge_beam_panel": panels_beside_strips(model)}
+    arrays = {
+        f"edge_beam_utilization_{name}": values for name, values in done.edge_beam_panels.items()
+    }
+    return report, arrays | {"edge_beam_panel": panels_beside_edge_beam(model)}
 
 
 def _linearise(done: _Analysed, factor_min: float) -> dict[str, np.ndarray]:

@@ -97,12 +97,12 @@ def take_step(
         read_constraints(arrays),
     )
     new = round_thickness(following.thickness)
-    relieving = _relieves_strip(arrays, sizing) & (new > arrays["thickness"])
+    relieving = _relieves_edge_beam(arrays, sizing) & (new > arrays["thickness"])
     return replace(following, thickness=new, note=_add_note(following.note, relieving))
 
 
-def _relieves_strip(arrays: Mapping[str, np.ndarray], sizing: Mapping[str, Any]) -> np.ndarray:
-    """Return which panels (P,) are within their own limit, but hold a strip that is not."""
+def _relieves_edge_beam(arrays: Mapping[str, np.ndarray], sizing: Mapping[str, Any]) -> np.ndarray:
+    """Return which panels (P,) are within their own limit, but not the edge beam that they hold."""
     own = arrays.get(f"utilization_{sizing['measure']}")
     if own is None:
         return np.zeros(len(arrays["thickness"]), bool)
@@ -118,8 +118,8 @@ def _add_note(notes: tuple[str, ...], relieving: np.ndarray) -> tuple[str, ...]:
 def choose_utilization(arrays: Mapping[str, np.ndarray], measure: str) -> np.ndarray | None:
     """Return the utilization (P,) by which a rule sizes panels, None where there is none.
 
-    No rule sizes the strips of an edge beam: the panel that a strip hangs from takes the larger of
-    both utilizations, so that it relieves an overstressed strip.
+    No rule sizes the panels of an edge beam: the panel that one hangs from takes the larger of
+    both utilizations, so that it relieves an overstressed one.
     """
     used = arrays.get(f"utilization_{measure}")
     if used is None or "edge_beam_panel" not in arrays:

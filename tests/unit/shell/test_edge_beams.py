@@ -1,4 +1,4 @@
-"""Edge beams: where their strips hang, what they weigh, and that they carry like a beam."""
+"""Edge beams: where their panels hang, what they weigh, and that they carry like a beam."""
 
 import numpy as np
 import pytest
@@ -11,14 +11,14 @@ from foldshell.shell.edge_beams import (
     EdgeBeam,
     facet_edges,
     free_edges,
-    hang_strips,
+    hang_edge_beam_panels,
     make_edge_beam,
 )
 from foldshell.shell.mesh import build_mesh
 from foldshell.shell.mesh_files import mesh_folded_sheet, mesh_from_arrays
 from foldshell.shell.results import (
     panel_area,
-    panels_beside_strips,
+    panels_beside_edge_beam,
     support_reactions,
     translations,
 )
@@ -54,16 +54,16 @@ def corners_of(arrays, facets):
 
 @pytest.mark.parametrize("seed", range(3))
 @pytest.mark.parametrize(("support", "count"), [("zigzag", 2 * 3), ("strip", 2 * 4), ("all", 0)])
-def test_strips_hang_from_every_free_border_edge(seed, support, count):
-    """Area of a strip: depth times the horizontal length of its edge, whatever the edge's slope."""
+def test_edge_beam_panels_hang_from_every_free_border_edge(seed, support, count):
+    """Area of a panel: depth times the horizontal length of its edge, whatever the edge's slope."""
     sheet = renumbered(seed)
     arrays = mesh_folded_sheet(sheet, support, 2, edge_beam=BEAM)
-    strips = arrays["facets"][len(sheet["facets"]) :]
-    assert len(strips) == 2 * count and len(arrays["fixed_thickness"]) == count
+    hung = arrays["facets"][len(sheet["facets"]) :]
+    assert len(hung) == 2 * count and len(arrays["fixed_thickness"]) == count
     assert (arrays["fixed_thickness"] == BEAM.thickness).all()
     assert np.array_equal(arrays["vertices"][: len(sheet["vertices"])], sheet["vertices"])
     assert np.array_equal(arrays["facet_panel"], np.arange(2 * (PANELS + count)) // 2)
-    corner = corners_of(arrays, strips)
+    corner = corners_of(arrays, hung)
     normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]) / 2
     assert normal[:, 2] == pytest.approx(0, abs=1e-12)
     free = "strip" if support == "zigzag" else "zigzag"
@@ -79,7 +79,7 @@ def test_strips_hang_from_every_free_border_edge(seed, support, count):
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_strips_are_cut_along_their_shorter_diagonal(seed):
+def test_edge_beam_panels_are_cut_along_their_shorter_diagonal(seed):
     """Both facets share two corners, closer than the other two where the edge slopes."""
     sheet = renumbered(seed)
     arrays = mesh_folded_sheet(sheet, "strip", 2, edge_beam=BEAM)
@@ -90,7 +90,7 @@ def test_strips_are_cut_along_their_shorter_diagonal(seed):
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_strips_continue_the_sheet_with_shared_vertices(seed):
+def test_edge_beam_panels_continue_the_sheet_with_shared_vertices(seed):
     """Every edge has two facets at most, which run along it in opposite directions."""
     arrays = mesh_folded_sheet(renumbered(seed), "strip", 2, edge_beam=BEAM)
     count = ZIGZAG * STRIP
@@ -103,8 +103,8 @@ def test_strips_continue_the_sheet_with_shared_vertices(seed):
     assert (np.unique(np.sort(directed, axis=1), axis=0, return_counts=True)[1] <= 2).all()
 
 
-def test_strips_lie_outside_of_what_the_sheet_says_is_its_upper_side():
-    """The sheet's positive side continues on the strip's outer side: its normal points away."""
+def test_edge_beam_panels_lie_outside_of_what_the_sheet_says_is_its_upper_side():
+    """The sheet's positive side continues on the panel's outer side: its normal points away."""
     arrays = mesh_folded_sheet(corrugated_sheet(), "zigzag", 2, edge_beam=BEAM)
     corner = corners_of(arrays, arrays["facets"][2 * PANELS :])
     normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
@@ -112,7 +112,7 @@ def test_strips_lie_outside_of_what_the_sheet_says_is_its_upper_side():
     assert (((corner.mean(axis=1) - middle) * normal)[:, 0] > 0).all()
 
 
-def test_a_negative_depth_stands_the_strip_up():
+def test_a_negative_depth_stands_the_edge_beam_up():
     """Same area and orientation along the border, above it."""
     sheet = corrugated_sheet()
     down, up = (
@@ -131,8 +131,8 @@ def test_a_negative_depth_stands_the_strip_up():
     )
 
 
-def test_strips_that_pierce_the_sheet_are_found():
-    """The edge x = 0 of a roof that falls away under it: hanging strips cut the lower leaf, those
+def test_edge_beam_panels_that_pierce_the_sheet_are_found():
+    """The edge x = 0 of a roof that falls away under it: hanging panels cut the lower leaf, those
     that stand up do not."""
     points = np.array(
         [[0, 0, 0], [0, 2, 0], [1, -1, -0.2], [1, 3, -0.2], [-1, -1, -0.6], [-1, 3, -0.6]]
@@ -140,9 +140,9 @@ def test_strips_that_pierce_the_sheet_are_found():
     facets = np.array([[0, 2, 3], [0, 3, 1], [2, 4, 5], [2, 5, 3]])
     edges = free_edges(facets, np.array([[4, 5], [0, 2], [2, 4], [1, 3], [3, 5]]))
     assert edges.tolist() == [[1, 0]]
-    place = find_piercing(*hang_strips(points, facets, edges, 0.8), len(facets))
+    place = find_piercing(*hang_edge_beam_panels(points, facets, edges, 0.8), len(facets))
     assert place is not None and place[0] == pytest.approx(0)
-    assert find_piercing(*hang_strips(points, facets, edges, -0.8), len(facets)) is None
+    assert find_piercing(*hang_edge_beam_panels(points, facets, edges, -0.8), len(facets)) is None
 
 
 def test_supports_stay_those_of_the_plain_design():
@@ -163,7 +163,7 @@ def test_an_edge_beam_needs_both_sizes():
     assert make_edge_beam(0.4, 0.15) == BEAM
 
 
-def test_strips_carry_their_own_weight_only_and_reactions_balance():
+def test_edge_beam_panels_carry_their_own_weight_only_and_reactions_balance():
     """Own weight grows by unit weight x depth x horizontal length x thickness; SDL, LL and W are
     those of the plain sheet."""
     combinations = {"SW": {"SW": 1.0}, "rest": {"SDL": 1.0, "LL": 1.0, "WX": 1.0, "WY": 1.0}}
@@ -189,7 +189,7 @@ def test_strips_carry_their_own_weight_only_and_reactions_balance():
 
 
 @pytest.mark.parametrize("seed", range(3))
-def test_each_strip_knows_the_panel_it_hangs_from(seed):
+def test_each_edge_beam_panel_knows_the_panel_it_hangs_from(seed):
     """They share both vertices of the border edge."""
     sheet = renumbered(seed)
     arrays = mesh_folded_sheet(sheet, "strip", 8, edge_beam=BEAM)
@@ -197,9 +197,9 @@ def test_each_strip_knows_the_panel_it_hangs_from(seed):
         mesh_from_arrays(arrays), arrays["supported_nodes"], 0.2,
         fixed_thickness=arrays["fixed_thickness"],
     )  # fmt: skip
-    found = panels_beside_strips(model)
-    for strip, panel in enumerate(found):
-        hung = arrays["facets"][arrays["facet_panel"] == PANELS + strip]
+    found = panels_beside_edge_beam(model)
+    for beside, panel in enumerate(found):
+        hung = arrays["facets"][arrays["facet_panel"] == PANELS + beside]
         beside = arrays["facets"][arrays["facet_panel"] == panel]
         assert len(set(hung.ravel()) & set(beside.ravel())) == 2
     assert len(np.unique(found)) == 2 * (STRIP - 1)
@@ -207,8 +207,8 @@ def test_each_strip_knows_the_panel_it_hangs_from(seed):
 
 @pytest.mark.parametrize("seed", [None, 4])
 def test_channel_cantilever_bends_like_a_beam(seed):
-    """A plate 0.5 x 10 m, 100 mm, with strips 0.4 m x 60 mm along both sides, clamped at one end:
-    tip deflection q L^4 / 8 E I + q L^2 / 2 G A_web of the U-section under its own weight.
+    """A plate 0.5 x 10 m, 100 mm, with edge beams 0.4 m x 60 mm along both sides, clamped at one
+    end: tip deflection q L^4 / 8 E I + q L^2 / 2 G A_web of the U-section under its own weight.
 
     Measured 0.2 % more (shear lag of the flange, which the theory leaves out); 1 % is allowed. The
     plate alone would sink 20 times as much.
@@ -223,7 +223,9 @@ def test_channel_cantilever_bends_like_a_beam(seed):
     number = np.arange(22) if seed is None else np.random.default_rng(seed).permutation(22)
     edges = free_edges(number[facets], number[ends])
     assert len(edges) == 20
-    points, every = hang_strips(vertices[np.argsort(number)], number[facets], edges, beam.depth)
+    points, every = hang_edge_beam_panels(
+        vertices[np.argsort(number)], number[facets], edges, beam.depth
+    )
     mesh = build_mesh(points, every, np.arange(len(every)) // 2, 4)
     clamped = np.flatnonzero(mesh.nodes[:, 0] < 1e-9)
     model = build_model(mesh, clamped, 0.0, fixed_thickness=np.full(20, beam.thickness))
@@ -245,10 +247,10 @@ def test_channel_cantilever_bends_like_a_beam(seed):
     assert panel_area(model)[model.sized_panels :].sum() == pytest.approx(2 * length * beam.depth)
 
 
-def test_a_vertical_border_edge_has_no_room_for_a_strip():
-    """The strip of an upright edge has no area: the mesh says which facet."""
+def test_a_vertical_border_edge_has_no_room_for_an_edge_beam():
+    """The panel of an upright edge has no area: the mesh says which facet."""
     points = np.array([[0, 0, 0], [0, 0, 1], [1, 0, 0.5]])
     edges = free_edges(np.array([[0, 1, 2]]), np.array([[1, 2], [0, 2]]))
-    found = hang_strips(points, np.array([[0, 1, 2]]), edges, 0.5)
+    found = hang_edge_beam_panels(points, np.array([[0, 1, 2]]), edges, 0.5)
     with pytest.raises(ValueError, match=r"facet 1 .* has no area"):
         build_mesh(*found)

@@ -211,7 +211,7 @@ def test_an_overstressed_edge_beam_keeps_the_loop_open():
     assert above.verdict == "continue" and "edge_beam_utilization" in above.reason
 
 
-def test_a_panel_is_sized_by_the_strip_that_hangs_from_it_if_that_is_used_more():
+def test_a_panel_is_sized_by_the_edge_beam_that_hangs_from_it_if_that_is_used_more():
     arrays = {
         "utilization_panel_mean": np.array([0.5, 0.7, 0.9, 0.4]),
         "edge_beam_utilization_panel_mean": np.array([1.3, 0.2]),

@@ -90,8 +90,8 @@ def test_history_workbook_charts_leave_header_and_units_out(tmp_path, rows):
         assert '<c:smooth val="1"/>' not in chart
 
 
-def test_the_utilization_chart_draws_the_strips_of_an_edge_beam(tmp_path):
-    """The series must point at the column of the strips, which stands after `reason`."""
+def test_the_utilization_chart_draws_the_edge_beam(tmp_path):
+    """The series must point at the column of the edge beam, which stands after `reason`."""
     used = {"edge_beam_utilization_max": 1.6, "edge_beam_utilization_panel_mean_max": 1.3}
     path = tmp_path / "history.xlsx"
     write_history(path, make_history([make_analysis(0, **used), make_analysis(1, **used)]), {})
