@@ -1,7 +1,8 @@
 """FOLD 1.2 files (Demaine, Ku and Lang, A new file standard, 2016): write and read sheets.
 
-The top frame is the flat crease pattern; `file_frames` are folded states that inherit it.
-Edge fold angles are in degrees, valley positive; own keys start with `foldshell:`.
+The top frame is the flat crease pattern, whose fold angles are the targets that tools fold it to:
+those of the rest state. `file_frames` are folded states that inherit it, with the angles that they
+have. Edge fold angles are in degrees, valley positive; own keys start with `foldshell:`.
 """
 
 import json
@@ -42,7 +43,7 @@ def describe_sheet(sheet: Sheet, title: str) -> dict[str, Any]:
         "vertices_coords": sheet.flat[:, :2].tolist(),
         "edges_vertices": grid.edges.tolist(),
         "edges_assignment": grid.assignments.tolist(),
-        "edges_foldAngle": _fold_angles(sheet.flat, grid),
+        "edges_foldAngle": _fold_angles(sheet.rest, grid),
         "faces_vertices": grid.facets.tolist(),
         "foldshell:kind": sheet.kind,
         "foldshell:settings": sheet.settings,

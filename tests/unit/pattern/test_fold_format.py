@@ -37,8 +37,8 @@ def test_fields_of_the_format(sheet):
     assert data["file_spec"] == 1.2 and data["frame_unit"] == "m"
     assert len(data["edges_assignment"]) == len(data["edges_foldAngle"]) == edges
     assert set(data["edges_assignment"]) == {"M", "V", "B", "F"}
-    assert all(a in (0.0, None) for a in data["edges_foldAngle"])
     rest = data["file_frames"][0]
+    assert data["edges_foldAngle"] == rest["edges_foldAngle"]  # what tools fold the flat sheet to
     assert rest["frame_parent"] == 0 and rest["frame_inherit"] is True
     for assignment, angle in zip(data["edges_assignment"], rest["edges_foldAngle"], strict=True):
         if assignment == "B":
