@@ -23,7 +23,7 @@ rule fold:
 
 rule unfold:
     message:
-        "{wildcards.design}: true crease pattern"
+        "{wildcards.design}: crease pattern of the folded sheet"
     input:
         pattern=rules.pattern.output.fold,
         folded=rules.fold.output.folded,
@@ -32,6 +32,9 @@ rule unfold:
         fold=f"{RESULTS}/{{design}}/pattern/developable_pattern.fold",
         dxf=f"{RESULTS}/{{design}}/pattern/developable_pattern.dxf",
         svg=f"{RESULTS}/{{design}}/pattern/developable_pattern.svg",
+    params:
+        **of_design("fold_mode"),
+        drawings=lambda wildcards: of_stage("drawings")(wildcards)["drawings"],
     conda:
         "../envs/foldshell.yaml"
     script:

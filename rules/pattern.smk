@@ -11,6 +11,7 @@ rule pattern:
     params:
         **of_design("pattern", "surface", "span_m", "height_m", "zigzag", "strip"),
         sector_angle_deg=SECTOR_ANGLE_DEG,
+        drawings=lambda wildcards: of_stage("drawings")(wildcards)["drawings"],
     priority: BEFORE_LOOP
     benchmark:
         timing("pattern")

@@ -1,6 +1,8 @@
 """Rule pattern: the crease pattern of a design, sized for its target, as a FOLD file."""
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 from foldshell.files.errors import InputError, user_errors
 from foldshell.folding.targets import make_target, measure_turning
@@ -23,11 +25,14 @@ def main(
     frames: int = 9,
     dxf_path: str | Path | None = None,
     svg_path: str | Path | None = None,
+    drawings: Mapping[str, Any] | None = None,
 ) -> None:
     """Write crease_pattern.fold: flat pattern, rest state and `frames` folded states [m].
 
-    With `dxf_path` and `svg_path` the flat pattern as drawings [mm] too.
+    With `dxf_path` and `svg_path` the flat pattern as drawings [mm] too; `drawings` are the plain
+    settings of that group.
     """
+    style = {"preset": "fold", "scale": 1.0, **(drawings or {})}
     try:
         target = make_target(surface, span_m, height_m)
         lengths, turning = target.section_lengths(), measure_turning(target)
@@ -36,11 +41,11 @@ def main(
         raise
     except ValueError as error:
         raise InputError(f"design {design}: {error}") from None
-    drawing = draw_pattern(sheet.flat, sheet.grid)
+    drawing = draw_pattern(sheet.flat, sheet.grid, style["scale"], f"{design}, crease pattern")
     if dxf_path:
-        write_dxf(dxf_path, drawing)
+        write_dxf(dxf_path, drawing, style["preset"])
     if svg_path:
-        write_svg(svg_path, drawing)
+        write_svg(svg_path, drawing, style["preset"])
     write_fold(fold_path, sheet, design)
 
 

@@ -1,6 +1,8 @@
 """Rule unfold: the crease pattern that a folded design really has, as FOLD, DXF and SVG."""
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -8,6 +10,7 @@ from foldshell.files.errors import InputError, user_errors
 from foldshell.files.whole import read_arrays
 from foldshell.pattern.drawings import draw_pattern, write_dxf, write_svg
 from foldshell.pattern.fold_format import read_fold, write_fold
+from foldshell.pattern.grid import Grid
 from foldshell.pattern.unfold import describe_true_sheet
 
 
@@ -19,14 +22,18 @@ def main(
     svg_path: str | Path,
     *,
     design: str,
+    fold_mode: str = "exact",
     frames: int = 9,
+    drawings: Mapping[str, Any] | None = None,
 ) -> None:
     """Read crease_pattern.fold and folded.npz; write developable_pattern.fold, .dxf and .svg.
 
-    The flat state is the one that folded.npz records: the given pattern in paper and isometric
-    mode, the unfolded panels in exact and rigid mode. The folded shape is a frame, and before
-    it, where the panels can follow, `frames` states of its rigid folding path.
+    The flat state is the one that folded.npz records: the unfolded panels in exact and rigid mode;
+    in the other modes the given pattern, and the files say so, with the stretch that lies between
+    it and the folded shape. That shape is a frame, and before it, where the panels can follow,
+    `frames` states of its rigid folding path. `drawings` are the settings of that group.
     """
+    style = {"preset": "fold", "scale": 1.0, **(drawings or {})}
     sheet, folded = read_fold(pattern_path), read_arrays(folded_path)
     if folded["vertices"].shape != sheet.flat.shape:
         raise InputError(
@@ -35,10 +42,23 @@ def main(
         )
     parts = np.linspace(0.0, 1.0, frames + 1)[:-1]
     true = describe_true_sheet(sheet, folded["flat"], folded["vertices"], parts)
-    drawing = draw_pattern(true.flat, true.grid)
-    write_dxf(dxf_path, drawing)
-    write_svg(svg_path, drawing)
-    write_fold(fold_path, true, f"{design}, as folded")
+    title = f"{design}, {name_flat_state(sheet.grid, folded, fold_mode)}"
+    drawing = draw_pattern(true.flat, true.grid, style["scale"], title)
+    write_dxf(dxf_path, drawing, style["preset"])
+    write_svg(svg_path, drawing, style["preset"])
+    write_fold(fold_path, true, title)
+
+
+def name_flat_state(grid: Grid, folded: Mapping[str, np.ndarray], fold_mode: str) -> str:
+    """Name what the flat state of folded.npz is: unfolded, or the given pattern and its stretch."""
+    if fold_mode in ("exact", "rigid"):
+        return "unfolded from the folded shape"
+    flat, shape = (
+        np.linalg.norm(np.diff(folded[name][grid.edges], axis=1)[:, 0], axis=1)
+        for name in ("flat", "vertices")
+    )
+    stretch = np.abs(shape / flat - 1).max()
+    return f"the given pattern (mode {fold_mode}: its sides stretch by up to {100 * stretch:.2g} %)"
 
 
 if "snakemake" in globals():
@@ -50,4 +70,5 @@ if "snakemake" in globals():
             snakemake.output.dxf,  # noqa: F821
             snakemake.output.svg,  # noqa: F821
             design=snakemake.wildcards.design,  # noqa: F821
+            **snakemake.params,  # noqa: F821
         )

@@ -22,7 +22,7 @@ def _run(folder, mode):
     )  # fmt: skip
     unfold.main(
         folder / "a.fold", folder / "f.npz", folder / "t.fold", folder / "t.dxf",
-        folder / "t.svg", design="x",
+        folder / "t.svg", design="x", fold_mode=mode,
     )  # fmt: skip
     return read_arrays(folder / "f.npz"), read_fold(folder / "t.fold")
 
@@ -39,11 +39,23 @@ def test_rigid_pattern_and_path_are_written(tmp_path):
         for frame in sheet.path
     ]
     assert all(np.abs(one - lengths[0]).max() < 1e-9 for one in lengths)
+    # No state jumps: the last step onto the folded sheet is like the steps before it.
+    steps = [
+        np.linalg.norm(b.vertices - a.vertices, axis=1).max()
+        for a, b in zip(sheet.path, sheet.path[1:], strict=False)
+    ]
+    assert steps[-1] < 1.2 * max(steps[:-1])
+    assert (
+        np.abs(sheet.path[0].vertices.mean(axis=0) - folded["vertices"].mean(axis=0)).max() < 1e-9
+    )
     assert len(ezdxf.readfile(tmp_path / "t.dxf").modelspace().query("LINE")) > 50
 
 
 def test_soft_sheet_has_no_rigid_path(tmp_path):
     folded, sheet = _run(tmp_path, "paper")
+    title = json.loads((tmp_path / "t.fold").read_text())["file_title"]
+    assert "given pattern" in title and "stretch" in title
+    assert "given pattern" in (tmp_path / "t.svg").read_text()
     assert [frame.title for frame in sheet.path] == ["folded"]
     assert sheet.settings == read_fold(tmp_path / "a.fold").settings
     assert np.array_equal(sheet.path[0].vertices, folded["vertices"])

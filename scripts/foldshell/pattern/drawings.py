@@ -195,7 +195,9 @@ def write_svg(path: str | Path, drawing: Drawing, preset: str = "fold") -> None:
         )
         parts.append(f'<g id="{layer}"{dash}><path stroke="{colour}" d="{steps}"/></g>')
     layer, _, colour = PRESETS[preset]["outline"]
-    ring = " ".join(f"{x:.6f},{height - y:.6f}" for x, y in (drawing.outline - drawing.low).tolist())
+    ring = " ".join(
+        f"{x:.6f},{height - y:.6f}" for x, y in (drawing.outline - drawing.low).tolist()
+    )
     parts.append(f'<g id="{layer}"><polygon stroke="{colour}" points="{ring}"/></g>')
     parts.append("</svg>\n")
     with atomic_path(path) as temporary:

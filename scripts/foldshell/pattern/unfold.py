@@ -147,29 +147,58 @@ def follow_path(
 ) -> tuple[list[np.ndarray], float]:
     """Refold a sheet along its rigid path: states (V, 3) at each of `parts`, largest gap [m].
 
-    Every state is laid level, and turned and moved to lie over the folded one.
+    The flat state lies level under the middle of the folded sheet; on the way from there each is
+    turned towards where it lies nearest to the state after it, so that nothing jumps from one to
+    the next, nor from the last one to the folded sheet.
     """
     folds = measure_folds(folded, grid)
     states = [fold_panels(flat, grid, scale_folds(folds, part)) for part in parts]
-    placed = [lay_level(state.vertices, grid, folded) for state in states]
+    placed, onto = [], folded
+    for part, state in zip(reversed(parts), reversed(states), strict=True):
+        onto = fit_onto(state.vertices, onto)
+        placed.insert(0, turn_towards(lay_level(onto, grid), onto, part))
     return placed, max(state.closure for state in states)
 
 
-def lay_level(vertices: np.ndarray, grid: Grid, like: np.ndarray) -> np.ndarray:
-    """Move a state so that its facets face upwards on the mean and its plan lies over `like`."""
+def fit_onto(vertices: np.ndarray, onto: np.ndarray) -> np.ndarray:
+    """Move vertices (V, 3) rigidly to the least sum of squared distances from `onto` (V, 3)."""
+    centre, there = vertices.mean(axis=0), onto.mean(axis=0)
+    return (vertices - centre) @ _fit_rotation(vertices - centre, onto - there) + there
+
+
+def _fit_rotation(points: np.ndarray, onto: np.ndarray) -> np.ndarray:
+    """Rotation R (3, 3) of least |points R - onto|, both (V, 3) about their means.
+
+    W. Kabsch, Acta Crystallographica A32 (1976) 922: with U S V^T of the covariance, R = U V^T,
+    the last axis turned where that would mirror.
+    """
+    left, _, right = np.linalg.svd(points.T @ onto)
+    return (left * [1.0, 1.0, np.sign(np.linalg.det(left @ right))]) @ right
+
+
+def turn_towards(vertices: np.ndarray, onto: np.ndarray, part: float) -> np.ndarray:
+    """Turn vertices (V, 3) by `part` of the rotation that lays them on their copy `onto`."""
+    centre = vertices.mean(axis=0)
+    turn = _fit_rotation(vertices - centre, onto - onto.mean(axis=0)).T
+    axis = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
+    length = np.linalg.norm(axis)
+    if length > 0:
+        angle = np.arctan2(length, np.trace(turn) - 1)
+        turn = _rotation(axis / length, part * angle)
+    return (vertices - centre) @ turn.T + onto.mean(axis=0)
+
+
+def lay_level(vertices: np.ndarray, grid: Grid) -> np.ndarray:
+    """Turn a state about its middle so that its facets face upwards on the mean."""
     corners = vertices[grid.facets]
     area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]).sum(axis=0)
-    up = area / np.linalg.norm(area)
-    axis = np.cross(up, [0.0, 0.0, 1.0])
+    axis = np.cross(area, [0.0, 0.0, 1.0])
     sine = np.linalg.norm(axis)
-    tilt = np.eye(3)
-    if sine > 0:
-        tilt = _rotation(axis / sine, np.arctan2(sine, up[2]))
-    level = (vertices - vertices.mean(axis=0)) @ tilt.T
-    flat, over = level[:, 0] + 1j * level[:, 1], like - like.mean(axis=0)
-    turn = np.sum(np.conj(flat) * (over[:, 0] + 1j * over[:, 1]))
-    turned = flat * turn / abs(turn)
-    return np.column_stack([turned.real, turned.imag, level[:, 2]]) + like.mean(axis=0)
+    if sine == 0:
+        return vertices
+    tilt = _rotation(axis / sine, np.arctan2(sine, area[2]))
+    centre = vertices.mean(axis=0)
+    return (vertices - centre) @ tilt.T + centre
 
 
 def find_overlap(flat: np.ndarray, grid: Grid) -> bool:

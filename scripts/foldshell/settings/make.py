@@ -18,7 +18,9 @@ from foldshell.settings.options import (
     Combinations,
     Crosscheck,
     Defaults,
+    Drawings,
     ExactWeights,
+    Exports,
     Figures,
     Fold,
     FoldLimits,
@@ -55,6 +57,8 @@ _GROUPS = {
     "limits": Limits,
     "jobs": Jobs,
     "figures": Figures,
+    "drawings": Drawings,
+    "exports": Exports,
 }
 _NESTED = {
     ("fold", "weights"): FoldWeights,

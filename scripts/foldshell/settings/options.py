@@ -183,6 +183,24 @@ class Figures:
 
 
 @dataclass(frozen=True)
+class Drawings:
+    """Drawings of patterns and panels; `scale` is drawn over true length."""
+
+    preset: str
+    scale: float
+
+
+@dataclass(frozen=True)
+class Exports:
+    """Files for other programs (m, s)."""
+
+    formats: list[str]
+    sheet_length: float
+    sheet_width: float
+    nesting_seconds: int
+
+
+@dataclass(frozen=True)
 class Settings:
     """Every setting of a study."""
 
@@ -200,3 +218,5 @@ class Settings:
     limits: Limits
     jobs: Jobs
     figures: Figures
+    drawings: Drawings
+    exports: Exports

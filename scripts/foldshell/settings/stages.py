@@ -49,6 +49,8 @@ STAGES: dict[str, list[str]] = {
     "size": [*_STRENGTH, *_ANALYSIS, "sizing"],
     "crosscheck": [*_STRENGTH, "crosscheck"],
     "figures": ["figures"],
+    "drawings": ["drawings"],
+    "exports": ["exports"],
     "study": ["pattern", "fold", *_STRENGTH, "analysis", "sizing", "crosscheck"],
 }
 

@@ -7,7 +7,13 @@ import pytest
 
 from foldshell.pattern.angles import measure_folds
 from foldshell.pattern.miura import Miura, flat_vertices, folded_vertices
-from foldshell.pattern.unfold import find_overlap, fold_panels, follow_path, unfold_panels
+from foldshell.pattern.unfold import (
+    find_overlap,
+    fit_onto,
+    fold_panels,
+    follow_path,
+    unfold_panels,
+)
 
 PATTERN = Miura(1.3, 0.7, math.radians(60), 6, 7)
 
@@ -68,3 +74,17 @@ def test_overlap_is_seen():
     flat = flat_vertices(PATTERN)
     flat[0] = flat[2 * 7 + 2] + [0.1, 0.05, 0]
     assert find_overlap(flat, PATTERN.grid)
+
+
+def test_best_fit_undoes_a_motion_and_never_mirrors():
+    """A turned and moved copy comes back to 1e-12; a mirrored one cannot: it keeps its hand."""
+    random = np.random.default_rng(3)
+    points = random.normal(size=(20, 3)) * [3, 2, 1]
+    turn = np.linalg.qr(random.normal(size=(3, 3)))[0]
+    turn *= np.sign(np.linalg.det(turn))
+    moved = points @ turn.T + [4, -5, 6]
+    assert np.abs(fit_onto(moved, points) - points).max() < 1e-12
+    mirrored = fit_onto(points * [1, 1, -1], points)
+    volume = [np.linalg.det(p[1:4] - p[0]) for p in (points * [1, 1, -1], mirrored)]
+    assert volume[0] == pytest.approx(volume[1])
+    assert np.abs(mirrored - points).max() > 0.1
