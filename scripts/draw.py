@@ -10,6 +10,7 @@ from foldshell.figures.pictures import draw_design
 from foldshell.files.errors import user_errors
 from foldshell.results.design_view import view_design
 from foldshell.results.state import read_state
+from foldshell.settings.material import Material
 
 
 def main(
@@ -32,7 +33,10 @@ def main(
     files = mesh_path, folded_path, final_path, report_path
     state = read_state(design, *files, settings["combinations"], classes_path)
     subject = view_design(state, settings, span_m, pattern)
-    write_design_vtu(vtu_path, state, subject.elasticity)
+    combinations = settings["combinations"]["strength"] | settings["combinations"]["deflection"]
+    material = settings["material"]
+    known = Material(**material) if "criterion" in material else None
+    write_design_vtu(vtu_path, state, subject.elasticity, known, combinations)
     write_lines_vtu(lines_path, subject)
     figures = settings["figures"]
     size = (figures["width_px"], figures["height_px"])

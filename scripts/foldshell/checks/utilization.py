@@ -8,6 +8,7 @@ from foldshell.checks.strength import CRITERIA
 from foldshell.settings.material import Material
 from foldshell.shell.analysis import ShellModel
 from foldshell.shell.results import panel_area
+from foldshell.shell.stiffness import ShellOperators
 from foldshell.shell.stress import evaluate, sample_points, stress_resultants, surface_stresses
 
 
@@ -39,9 +40,27 @@ def compute_utilization(
     displacement : (dofs, c) m and rad, of the strength combinations
     thickness : (E,) m
     """
-    operators = model.operators
+    combination = utilization_of_combinations(model.operators, displacement, thickness, material)
+    point = combination.max(axis=0)
+    governing = combination.mean(axis=3).argmax(axis=0)
+    return Utilization(point, combination, point.mean(axis=2), governing)
+
+
+def utilization_of_combinations(
+    operators: ShellOperators,
+    displacement: np.ndarray,
+    thickness: np.ndarray,
+    material: Material,
+) -> np.ndarray:
+    """Return (c, E, cells^2, s^2): the criterion of each load column at the sample points.
+
+    Parameters
+    ----------
+    displacement : (dofs, c) m and rad
+    thickness : (E,) m
+    """
     resultants = stress_resultants(operators, displacement, thickness, material.youngs_modulus)
-    points = sample_points(model.mesh.cells)
+    points = sample_points(operators.mesh.cells)
     flat = points.reshape(-1, 2)
     criterion = CRITERIA[material.criterion]
     combination = np.empty((displacement.shape[1], len(thickness), *points.shape[:2]))
@@ -51,9 +70,7 @@ def compute_utilization(
         moment = evaluate(operators, resultants.moment[..., own], flat)
         value = criterion(surface_stresses(force, moment, thickness), material).max(axis=0)
         combination[column] = value[..., 0].reshape(combination.shape[1:])
-    point = combination.max(axis=0)
-    governing = combination.mean(axis=3).argmax(axis=0)
-    return Utilization(point, combination, point.mean(axis=2), governing)
+    return combination
 
 
 def panel_utilization(model: ShellModel, cell: np.ndarray, measure: str) -> np.ndarray:

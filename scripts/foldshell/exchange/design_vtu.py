@@ -1,36 +1,35 @@
 """design.vtu: the final fields of a design on its result cells, for ParaView and the like.
 
-Cell fields: panel, thickness [m], thickness_class (1, 2, ... in rising order) and class_thickness
-[m] of the design in classes (sizing/classes.npz), utilization [-], utilization_panel_mean [-],
-governing_combination (1 for the first strength combination), nx, ny, nxy [kN/m] in the facet's
-axes (axis_x; normal upward), principal forces n1 >= n2 [kN/m] with their unit directions, and
-principal_1, principal_2: direction times force. Point fields: displacement [m], supported.
-Membrane forces and displacement belong to the combinations whose numbers stand in
-force_combination and displacement_combination, counted on from the strength combinations. What an
-unstable design lacks is left out.
+What each field is, and its unit, is said in the file's FieldData (`legend`), beside title, verdict,
+combinations and buckling factors. Fields of every combination carry its name (n_S1, m_S1, v_S1,
+utilization_S1, displacement_S1, buckling_mode_S1 ...), in single precision; envelopes over the
+strength and the deflection combinations end in _max and _min. What an unstable design lacks is
+left out.
 """
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 
 from foldshell.exchange.vtu import write_vtu
+from foldshell.exchange.vtu_legend import describe_fields, known_factors
+from foldshell.results.combination_fields import CombinationFields, evaluate_combinations
 from foldshell.results.design_view import DesignView, Elasticity
 from foldshell.results.fields import (
     cell_thickness,
     choose_deflection,
     choose_strength,
-    membrane_force_cells,
-    membrane_force_coefficients,
     principal_forces,
 )
 from foldshell.results.isolines import utilization_isolines
 from foldshell.results.principal_stress_lines import split_lines
 from foldshell.results.state import DesignState
+from foldshell.settings.material import Material
 from foldshell.shell.mesh import edge_polyline_nodes
 
 
-def cell_fields(state: DesignState, elasticity: Elasticity) -> dict[str, np.ndarray]:
+def cell_fields(state: DesignState) -> dict[str, np.ndarray]:
     """Return the cell fields (C,) or (C, 3) that the state allows, by name."""
     fields: dict[str, np.ndarray] = {
         "panel": state.cell_panel.astype(np.int32),
@@ -47,25 +46,41 @@ def cell_fields(state: DesignState, elasticity: Elasticity) -> dict[str, np.ndar
         fields["utilization_panel_mean"] = state.panel_utilization[state.cell_panel]
         governing = state.final["governing_combination"].ravel() + 1
         fields["governing_combination"] = governing.astype(np.int32)
-    if state.usable:
-        fields |= force_fields(state, elasticity)
     return fields
 
 
-def force_fields(state: DesignState, elasticity: Elasticity) -> dict[str, np.ndarray]:
+def force_fields(state: DesignState, found: CombinationFields) -> dict[str, np.ndarray]:
     """Return membrane forces and principal forces of the combination that governs most."""
     name = choose_strength(state)
-    stiffness = (elasticity.youngs_modulus, elasticity.poissons_ratio)
-    found = membrane_force_coefficients(state, name, *stiffness)
-    force, axes = membrane_force_cells(*found, state.mesh)
+    number = state.combinations.index(name)
+    force, axes = found.force[number], found.axes
     value, direction = principal_forces(force, axes)
     fields = {"nx": force[:, 0], "ny": force[:, 1], "nxy": force[:, 2], "axis_x": axes[:, 0]}
     for k in (0, 1):
         fields[f"n{k + 1}"] = value[:, k]
         fields[f"direction_{k + 1}"] = direction[:, k]
         fields[f"principal_{k + 1}"] = value[:, [k]] * direction[:, k]
-    number = state.combinations.index(name) + 1
-    return {**fields, "force_combination": np.full(len(force), number, dtype=np.int32)}
+    return {**fields, "force_combination": np.full(len(force), number + 1, dtype=np.int32)}
+
+
+def combination_cell_fields(state: DesignState, found: CombinationFields) -> dict[str, np.ndarray]:
+    """Return n, m, v, principal forces and utilization of each combination, and envelopes."""
+    fields = {}
+    for k, name in enumerate(state.combinations):
+        value, direction = principal_forces(found.force[k], found.axes)
+        fields[f"n_{name}"], fields[f"m_{name}"] = found.force[k], found.moment[k]
+        fields[f"v_{name}"] = found.shear[k]
+        fields[f"n12_{name}"], fields[f"direction_1_{name}"] = value, direction[:, 0]
+    for name, value in zip(state.strength, found.utilization, strict=False):
+        fields[f"utilization_{name}"] = value
+    strength = len(state.strength)
+    for group, own in (("strength", slice(strength)), ("deflection", slice(strength, None))):
+        for letter in ("force", "moment", "shear"):
+            values = getattr(found, letter)[own]
+            name = {"force": "n", "moment": "m", "shear": "v"}[letter]
+            fields[f"{name}_{group}_max"] = values.max(axis=0)
+            fields[f"{name}_{group}_min"] = values.min(axis=0)
+    return {name: values.astype(np.float32) for name, values in fields.items()}
 
 
 def point_fields(state: DesignState) -> dict[str, np.ndarray]:
@@ -73,18 +88,39 @@ def point_fields(state: DesignState) -> dict[str, np.ndarray]:
     supported = np.zeros(len(state.cells.nodes), dtype=np.int32)
     supported[edge_polyline_nodes(state.cells, state.shell["support_pairs"])] = 1
     fields = {"supported": supported}
-    if state.usable:
-        name = choose_deflection(state)
-        number = np.int32(state.combinations.index(name) + 1)
-        fields["displacement"] = state.displacement_at_nodes(name)
-        fields["displacement_combination"] = np.full(len(supported), number)
+    if not state.usable:
+        return fields
+    name = choose_deflection(state)
+    number = np.int32(state.combinations.index(name) + 1)
+    fields["displacement"] = state.displacement_at_nodes(name)
+    fields["displacement_combination"] = np.full(len(supported), number)
+    for name in state.combinations:
+        moved = state.displacement_at_nodes(name)
+        fields[f"displacement_{name}"] = moved.astype(np.float32)
+    for name in known_factors(state):
+        fields[f"buckling_mode_{name}"] = state.buckling_mode(name).astype(np.float32)
     return fields
 
 
-def write_design_vtu(path: str | Path, state: DesignState, elasticity: Elasticity) -> None:
-    """Write design.vtu: result cells as triangles, nodes in m."""
-    fields = cell_fields(state, elasticity)
-    write_vtu(path, state.cells.nodes, state.triangles, point_fields(state), fields)
+def write_design_vtu(
+    path: str | Path,
+    state: DesignState,
+    elasticity: Elasticity,
+    material: Material | None = None,
+    combinations: Mapping[str, Mapping[str, float]] | None = None,
+) -> None:
+    """Write design.vtu: result cells as triangles, nodes in m.
+
+    `material` gives the utilization of every strength combination, `combinations` the factors of
+    load cases by name, which the legend then says.
+    """
+    fields = cell_fields(state)
+    if state.usable:
+        found = evaluate_combinations(state, elasticity, material)
+        fields |= force_fields(state, found) | combination_cell_fields(state, found)
+    points = point_fields(state)
+    words = describe_fields(state, [*points, *fields], combinations or {})
+    write_vtu(path, state.cells.nodes, state.triangles, points, fields, words)
 
 
 def write_lines_vtu(path: str | Path, subject: DesignView) -> None:

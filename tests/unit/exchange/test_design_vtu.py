@@ -1,7 +1,7 @@
 """design.vtu and design_lines.vtu hold the fields, cell by cell."""
 
-import meshio
 import numpy as np
+import pyvista
 
 from figure_cases import make_state
 from foldshell.exchange.design_vtu import write_design_vtu, write_lines_vtu
@@ -11,11 +11,10 @@ ELASTICITY = Elasticity(31e6, 0.2)
 
 
 def read(path):
-    """Return points, cells and fields of a VTU with one cell block."""
-    grid = meshio.read(path)
-    assert len(grid.cells) == 1
-    fields = {name: values[0] for name, values in grid.cell_data.items()}
-    return grid.points, grid.cells[0].data, fields, grid.point_data
+    """Return points, cells and fields of a VTU of triangles or lines, by VTK."""
+    grid = pyvista.read(path)
+    (cells,) = grid.cells_dict.values()
+    return grid.points, cells, dict(grid.cell_data), dict(grid.point_data)
 
 
 def test_fields_stand_in_their_cells(tmp_path):
@@ -62,6 +61,48 @@ def test_unstable_design_keeps_what_there_is(tmp_path):
     _, _, fields, nodal = read(tmp_path / "design.vtu")
     assert set(fields) == {"panel", "thickness", "thickness_class", "class_thickness"}
     assert set(nodal) == {"supported"}
+
+
+def test_every_field_has_its_unit_and_meaning(tmp_path):
+    """FieldData names each field once, with a unit; title, verdict and combinations are text."""
+    state = make_state(tmp_path)
+    factors = {"S1": {"SW": 1.4, "SDL": 1.4}}
+    write_design_vtu(tmp_path / "design.vtu", state, ELASTICITY, None, factors)
+    grid = pyvista.read(tmp_path / "design.vtu")
+    names = sorted([*grid.cell_data, *grid.point_data])
+    assert sorted(line.split(" [")[0] for line in grid.field_data["units"]) == names
+    assert sorted(line.split(" [")[0] for line in grid.field_data["legend"]) == names
+    assert "n_S1 [kN/m]" in grid.field_data["units"] and "m_D2 [kNm/m]" in grid.field_data["units"]
+    assert list(grid.field_data["title"]) == ["foldshell: final state of case"]
+    assert "converged" in grid.field_data["verdict"]
+    assert grid.field_data["combinations"][0] == "1: S1 = 1.4 SW + 1.4 SDL"
+    assert list(grid.field_data["buckling_factor_of"]) == ["S1", "S2", "D2"]
+    assert list(grid.field_data["buckling_factor"]) == [3.0, 2.0, 4.0]
+
+
+def test_fields_of_every_combination_and_their_envelopes(tmp_path):
+    """D2 moves ten times as far as the others, so its forces are ten times theirs."""
+    state = make_state(tmp_path, move=lambda x: 1e-3 * np.sin(x + x[:, [2, 0, 1]]))
+    write_design_vtu(tmp_path / "design.vtu", state, ELASTICITY)
+    _, _, fields, nodal = read(tmp_path / "design.vtu")
+    for letter in "nmv":
+        assert np.allclose(
+            fields[f"{letter}_D2"], 10 * fields[f"{letter}_D1"], rtol=1e-4, atol=1e-3
+        )
+        assert np.array_equal(
+            fields[f"{letter}_deflection_max"],
+            np.maximum(fields[f"{letter}_D1"], fields[f"{letter}_D2"]),
+        )
+        assert np.array_equal(
+            fields[f"{letter}_strength_min"],
+            np.minimum(fields[f"{letter}_S1"], fields[f"{letter}_S2"]),
+        )
+    for k, name in enumerate(("nx", "ny", "nxy")):
+        assert np.allclose(fields[name], fields["n_S2"][:, k], rtol=1e-6, atol=1e-4)
+    assert {f"displacement_{c}" for c in ("S1", "S2", "D1", "D2")} <= set(nodal)
+    modes = [name for name in nodal if name.startswith("buckling_mode_")]
+    assert sorted(modes) == [f"buckling_mode_{c}" for c in ("D2", "S1", "S2")]
+    assert np.linalg.norm(nodal["buckling_mode_S1"], axis=1).max() == 1
 
 
 def test_same_state_same_bytes(tmp_path):
