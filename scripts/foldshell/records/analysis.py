@@ -1,0 +1,134 @@
+"""analysis.json and final.json: one analysis of the sizing loop, and the verdict on it."""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+from foldshell.records.entry import COUNT, entry
+from foldshell.records.files import read_record, write_record
+
+Verdict = Literal["continue", "converged", "not_converged", "at_minimum_thickness", "unstable"]
+State = Literal["ok", "not_converged", "unstable", "mechanism"]
+
+
+@dataclass(frozen=True, kw_only=True)
+class Criterion:
+    """One criterion of the stop rule."""
+
+    value: float | None = entry("what was found; null before there is anything to compare")
+    limit: float = entry("what it is held against")
+    met: bool = entry("whether it holds")
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShellState:
+    """What an analysis finds of a shell; what it gave no answer to is left out."""
+
+    iteration: int = entry("number of the analysis in its loop, from 0", COUNT)
+    state: State = entry(
+        "ok, not_converged (second order did not settle), unstable (buckles below its loads) or "
+        "mechanism"
+    )
+    volume_m3: float = entry("volume of material, edge beam included", "m3")
+    area_m2: float = entry("area of the sized panels", "m2", "area of the sheet")
+    buckling_factor: dict[str, float | None] = entry(
+        "factor of each combination at which the shell buckles, elastic and perfect; null for none",
+        "-", "buckling factors",
+    )  # fmt: skip
+    second_order_iterations: int = entry("iterations of second order (Th.II)", COUNT)
+    second_order_residual: float | None = entry(
+        "largest relative residual of second order; null where it was not asked for", "-"
+    )
+    dofs: int = entry("unknowns of the shell model", COUNT, "unknowns")
+    mesh_subdivisions: int = entry(
+        "result cells along the edge of a facet", COUNT, "cells along a facet edge"
+    )
+    element_order: int = entry("polynomial order of the displacement in an element", COUNT)
+    utilization_max: float | None = entry(
+        "largest utilization of a result cell; no limit, for information",
+        "-", "utilization, largest of all points", left_out=True,
+    )  # fmt: skip
+    utilization_p99: float | None = entry(
+        "utilization that 99 % of the area does not exceed; no limit, for information",
+        "-", "utilization, 99 % of the area", left_out=True,
+    )  # fmt: skip
+    utilization_mean: float | None = entry(
+        "mean utilization over the area; no limit, for information",
+        "-", "utilization, mean", left_out=True,
+    )  # fmt: skip
+    utilization_panel_mean_max: float | None = entry(
+        "largest mean utilization of a panel: what the paper's measure holds against its limit",
+        "-", "utilization, largest panel mean", left_out=True,
+    )  # fmt: skip
+    displacement_vertical_max_m: float | None = entry(
+        "largest downward displacement over the deflection combinations",
+        "m", "vertical displacement, down", left_out=True,
+    )  # fmt: skip
+    displacement_combination: str | None = entry(
+        "combination of the largest downward displacement", left_out=True
+    )
+    displacement_place_m: tuple[float, float, float] | None = entry(
+        "where it is: x, y, z", "m", left_out=True
+    )
+    reaction_sum_kn: dict[str, tuple[float, float, float]] | None = entry(
+        "sum of the reactions of each combination: x, y, z", "kN", left_out=True
+    )
+    reaction_imbalance: float | None = entry(
+        "largest difference of reactions from loads, relative",
+        "-", "reactions against loads", form="scientific", left_out=True,
+    )  # fmt: skip
+    panels_at_bound: int | None = entry(
+        "panels at the least or largest thickness",
+        COUNT, "panels at the least or largest thickness", left_out=True,
+    )  # fmt: skip
+    panels_above_one: int | None = entry(
+        "panels whose utilization, by the measure of the loop, is above its limit",
+        COUNT, "panels above 1", left_out=True,
+    )  # fmt: skip
+    edge_beam_volume_m3: float | None = entry("volume of the edge beam", "m3", left_out=True)
+    edge_beam_utilization_max: float | None = entry(
+        "largest utilization of a result cell of the edge beam", "-", left_out=True
+    )
+    edge_beam_utilization_panel_mean_max: float | None = entry(
+        "largest mean utilization of a piece of the edge beam", "-", left_out=True
+    )
+
+    @property
+    def least_factor(self) -> float | None:
+        """Least buckling factor of all combinations, None where none was found."""
+        known = [factor for factor in self.buckling_factor.values() if factor is not None]
+        return min(known, default=None)
+
+    @property
+    def least_factor_combination(self) -> str | None:
+        """Combination of the least buckling factor, the first of equals; None without one."""
+        known = {name: f for name, f in self.buckling_factor.items() if f is not None}
+        return min(known, key=known.get, default=None)
+
+
+@dataclass(frozen=True, kw_only=True)
+class AnalysisRecord(ShellState):
+    """The contents of analysis.json; final.json is that of the last iteration."""
+
+    verdict: Verdict = entry("continue, or how the loop ended")
+    reason: str = entry("why, in words")
+    criteria: dict[str, Criterion] = entry("each criterion of the stop rule by its name")
+    stationary_iterations: int = entry("iterations in a row with a small change of volume", COUNT)
+    seconds: float = entry("wall time of the analysis", "s")
+    edited: bool = entry("whether a person had changed the workbook that was read", default=False)
+    workbook_sha256: str | None = entry("SHA-256 of the workbook that was read", left_out=True)
+
+    @property
+    def goes_on(self) -> bool:
+        """Whether the loop asks for another iteration."""
+        return self.verdict == "continue"
+
+
+def read_analysis(path: str | Path) -> AnalysisRecord:
+    """Read analysis.json or final.json; raises `InputError` for a damaged file."""
+    return read_record(path, AnalysisRecord)
+
+
+def write_analysis(path: str | Path, record: AnalysisRecord) -> None:
+    """Write analysis.json or final.json."""
+    write_record(path, record)

@@ -1,0 +1,76 @@
+"""analysis.npz, final.npz, classes.npz and memory.npz: arrays of the sizing loop.
+
+Axes: P sized panels, B pieces of an edge beam, E elements, K result cells of an element, C
+combinations (strength first), N nodes, D unknowns of the shell model, F those that are free, M
+linearised constraints.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from foldshell.records.arrays import array
+
+
+@dataclass(frozen=True, kw_only=True)
+class AnalysisArrays:
+    """The arrays of analysis.npz; those that only some analyses have are None elsewhere."""
+
+    thickness: np.ndarray = array("P", "m", "thickness that was analysed", required=True)
+    buckling_modes: np.ndarray | None = array(
+        "F, C", "m and rad", "buckling mode of each combination, of any size"
+    )
+    utilization_panel_mean: np.ndarray | None = array("P", "-", "area mean over a panel")
+    utilization_element_max: np.ndarray | None = array("P", "-", "largest result cell of a panel")
+    edge_beam_utilization_panel_mean: np.ndarray | None = array(
+        "B", "-", "area mean over a piece of the edge beam"
+    )
+    edge_beam_utilization_element_max: np.ndarray | None = array(
+        "B", "-", "largest result cell of a piece of the edge beam"
+    )
+    edge_beam_panel: np.ndarray | None = array("B", "", "panel that a piece hangs from")
+    displacement: np.ndarray | None = array(
+        "D, C", "m and rad", "unknowns of the last state of a loop"
+    )
+    utilization_cell: np.ndarray | None = array(
+        "E, K", "-", "utilization of result cells, last state of a loop"
+    )
+    governing_combination: np.ndarray | None = array(
+        "E, K", "", "number of the strength combination that governs a cell, from 0"
+    )
+    translations: np.ndarray | None = array(
+        "N, 3, C", "m", "displacements of nodes, last state of a loop"
+    )
+    constraint_value: np.ndarray | None = array(
+        "M", "-", "values g of the linearised constraints, g <= 1 is due"
+    )
+    constraint_gradient: np.ndarray | None = array("M, P", "1/m", "their gradients by thickness")
+    panel_area: np.ndarray | None = array("P", "m2", "areas of panels, where there are gradients")
+
+    def utilization(self, measure: str) -> np.ndarray | None:
+        """Return the utilization (P,) of panels by a measure, None where there is none."""
+        return getattr(self, f"utilization_{measure}")
+
+    def edge_beam_utilization(self, measure: str) -> np.ndarray | None:
+        """Return that of the pieces of the edge beam (B,), None where there is none."""
+        return getattr(self, f"edge_beam_utilization_{measure}")
+
+
+@dataclass(frozen=True, kw_only=True)
+class ClassesArrays:
+    """The arrays of classes.npz."""
+
+    utilization_panel_mean: np.ndarray | None = array("P", "-", "area mean over a panel")
+    thickness: np.ndarray | None = array("P", "m", "thickness of each panel's class")
+    panel_class: np.ndarray | None = array("P", "", "class of each panel, from 1")
+
+
+@dataclass(frozen=True, kw_only=True)
+class StepMemory:
+    """The arrays of memory.npz: what a step leaves to the one after it."""
+
+    step: np.ndarray = array("P", "-", "relative step of each panel", required=True)
+    direction: np.ndarray = array("P", "", "its last change: -1, 0, 1", required=True)
+    sign_changes: np.ndarray = array("P", "", "how often that changed sign", required=True)
+    stable: np.ndarray = array("Q", "m", "last stable thickness, empty for none", required=True)
+    failures: np.ndarray = array("", "", "analyses in a row without a stable state", required=True)

@@ -1,0 +1,100 @@
+"""What is said of a field of a result file: unit, meaning, words, the key it stands under."""
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass
+from functools import cache
+from types import MappingProxyType
+from typing import Any, get_type_hints
+
+SIGNS = {"m2": "m²", "m3": "m³", "deg": "°", "kN/m2": "kN/m²", "kN/m3": "kN/m³"}
+"""Units of files as people write them."""
+COUNT = "count"
+"""Unit of whole numbers that count something."""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A field of a record.
+
+    `attribute` is its name in Python, `key` the one in the file, `type` the annotation. `unit` is
+    that of the file: empty for texts and answers, `COUNT` for whole numbers, "-" for ratios.
+    `words` are what a person reads for the key, without unit; `form` names the number format of
+    workbooks where the type alone does not say it. A `left_out` field that is None has no key, or
+    in a table no column.
+    """
+
+    attribute: str
+    key: str
+    type: Any
+    unit: str
+    meaning: str
+    words: str
+    form: str
+    left_out: bool
+    required: bool
+
+    def label(self, unit: bool = True) -> str:
+        """Return the words, with the unit in brackets where there is one."""
+        shown = SIGNS.get(self.unit, self.unit)
+        return f"{self.words} [{shown}]" if unit and shown not in ("", COUNT) else self.words
+
+
+def entry(
+    meaning: str,
+    unit: str = "",
+    words: str = "",
+    *,
+    key: str = "",
+    form: str = "",
+    left_out: bool = False,
+    default: Any = dataclasses.MISSING,
+) -> Any:
+    """Return a dataclass field that carries what `Entry` says of it; `left_out` ones default to
+    None."""
+    about = {"unit": unit, "meaning": meaning, "words": words, "key": key, "form": form,
+             "left_out": left_out}  # fmt: skip
+    if left_out and default is dataclasses.MISSING:
+        default = None
+    return dataclasses.field(default=default, metadata=about)
+
+
+def same(kind: type, name: str, left_out: bool | None = None, **changed: str) -> Any:
+    """Return a dataclass field that says the same as a field of another record but for `changed`.
+
+    `left_out` False keeps the column of a value that may be None.
+    """
+    field = kind.__dataclass_fields__[name]
+    kept = field.metadata["left_out"] if left_out is None else left_out
+    metadata = {**field.metadata, "left_out": kept, **changed}
+    default = None if kept else field.default
+    return dataclasses.field(default=default, metadata=metadata)
+
+
+@cache
+def entries(kind: type) -> Mapping[str, Entry]:
+    """Return the fields of a record class by their keys in the file, in order.
+
+    Raises `TypeError` for a field that was not made by `entry`: without a meaning there is none.
+    """
+    hints = get_type_hints(kind)
+    found = (_describe(field, hints[field.name]) for field in dataclasses.fields(kind))
+    return MappingProxyType({about.key: about for about in found})
+
+
+def _describe(field: dataclasses.Field, hint: Any) -> Entry:
+    about = field.metadata
+    if not about.get("meaning"):
+        raise TypeError(f"{field.name}: a field of a record has a meaning: make it by `entry`")
+    key = about["key"] or field.name
+    unit = about["unit"]
+    words = about["words"] or name_key(key, unit)
+    required = field.default is dataclasses.MISSING
+    return Entry(field.name, key, hint, unit, about["meaning"], words, about["form"],
+                 about["left_out"], required)  # fmt: skip
+
+
+def name_key(key: str, unit: str) -> str:
+    """Return a key in words, without its unit: `height_m` of unit m is `height`."""
+    suffix = "_" + unit.replace("/", "_").lower()
+    return (key.removesuffix(suffix) if len(suffix) > 1 else key).replace("_", " ")

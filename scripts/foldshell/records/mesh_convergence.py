@@ -1,0 +1,70 @@
+"""mesh_convergence.json and primary.json: a state on the mesh in use and on a reference mesh."""
+
+from dataclasses import dataclass
+
+from foldshell.records.entry import COUNT, entry
+
+Pair = tuple[float, float]
+Vectors = tuple[tuple[float, float, float], tuple[float, float, float]]
+BOTH = "on the mesh in use and on the reference mesh"
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReferenceMesh:
+    """What the reference mesh changes in the mesh in use."""
+
+    order: int | None = entry("its element order", COUNT, left_out=True)
+    subdivisions: int | None = entry("its subdivisions", COUNT, left_out=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeshQuantities:
+    """Quantities of one combination, each on both meshes."""
+
+    displacement_down_max_m: Pair = entry(f"largest downward displacement, {BOTH}", "m")
+    displacement_max_m: Pair = entry(f"largest displacement, {BOTH}", "m")
+    work_knm: Pair = entry(f"work of the loads, twice the energy, {BOTH}", "kNm")
+    utilization_p99: Pair = entry(f"utilization that 99 % of the area keeps, {BOTH}", "-")
+    utilization_panel_mean_max: Pair = entry(f"largest mean utilization of a panel, {BOTH}", "-")
+    reaction_sum_kn: Vectors = entry(f"sum of the reactions, {BOTH}", "kN")
+    load_sum_kn: Vectors = entry(f"sum of the loads, {BOTH}", "kN")
+
+
+@dataclass(frozen=True, kw_only=True)
+class CombinationStudy(MeshQuantities):
+    """Quantities of first order, the buckling factor, and those of second order."""
+
+    buckling_factor: Pair | None = entry(f"buckling factor, {BOTH}", "-", left_out=True)
+    second_order: MeshQuantities | None = entry(
+        "the same to second order, where the structure does not buckle", left_out=True
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeshStudy:
+    """The contents of primary.json, which the independent code compares with."""
+
+    subdivisions: tuple[int, int] = entry(
+        "subdivisions in use, and those that the reference mesh counts for", COUNT
+    )
+    reference: ReferenceMesh = entry("how the reference mesh differs")
+    combinations: dict[str, CombinationStudy] = entry("quantities by combination")
+    reason: str | None = entry("why a mechanism has none", left_out=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeshConvergenceRecord:
+    """The contents of mesh_convergence.json."""
+
+    mesh_error: float | None = entry(
+        "largest relative error on the mesh in use, buckling factors left out",
+        "-", form="percent",
+    )  # fmt: skip
+    buckling_mesh_error: float | None = entry(
+        "largest relative error of a buckling factor on the mesh in use", "-", form="percent"
+    )
+    subdivisions: int = entry("subdivisions of the mesh in use", COUNT)
+    errors: dict[str, dict[str, float]] = entry(
+        "relative error of each quantity by combination", "-"
+    )
+    study: MeshStudy = entry("the values that the errors are made of")

@@ -1,0 +1,61 @@
+"""summary.csv: one row per design of a study."""
+
+from dataclasses import dataclass
+
+from foldshell.records.analysis import ShellState
+from foldshell.records.design_row import DesignRow
+from foldshell.records.entry import COUNT, entry, same
+from foldshell.records.mesh_convergence import MeshConvergenceRecord
+
+
+def _design(name: str):
+    return same(DesignRow, name)
+
+
+def _state(name: str):
+    return same(ShellState, name, left_out=False)
+
+
+@dataclass(frozen=True, kw_only=True)
+class SummaryRow:
+    """One design; a cell is empty where the design has no such number."""
+
+    design: str = _design("design")
+    tags: str = _design("tags")
+    pattern: str = _design("pattern")
+    surface: str = _design("surface")
+    span_m: float = _design("span_m")
+    height_m: float = _design("height_m")
+    zigzag: int = _design("zigzag")
+    strip: int = _design("strip")
+    support: str = _design("support")
+    fold_mode: str = _design("fold_mode")
+    state: str = entry(
+        "verdict of the sizing loop, that of folding where it went wrong (not_reached, crumpled), "
+        "failed where files are missing or damaged",
+        words="verdict",
+    )
+    iterations: int | None = entry("analyses of the loop", COUNT, default=None)
+    volume_m3: float | None = _state("volume_m3")
+    volume_per_area_m: float | None = entry(
+        "volume over the area of the sheet", "m3/m2", "volume / area", default=None
+    )
+    utilization_max: float | None = _state("utilization_max")
+    utilization_p99: float | None = _state("utilization_p99")
+    utilization_mean: float | None = _state("utilization_mean")
+    displacement_vertical_max_m: float | None = _state("displacement_vertical_max_m")
+    buckling_factor_min: float | None = entry(
+        "least buckling factor of all combinations", "-", "buckling factor", default=None
+    )
+    mesh_subdivisions: int | None = same(ShellState, "mesh_subdivisions")
+    mesh_error: float | None = same(MeshConvergenceRecord, "mesh_error")
+    crosscheck: str | None = entry(
+        "pass, fail, or not possible for a mechanism", words="cross-check", default=None
+    )
+    settings_hash: str = entry("hash of all settings that change results")
+    reason: str | None = entry("why the state is so", default=None)
+    buckling_mesh_error: float | None = same(MeshConvergenceRecord, "buckling_mesh_error")
+    edge_beam_depth_m: float | None = _design("edge_beam_depth_m")
+    edge_beam_thickness_m: float | None = _design("edge_beam_thickness_m")
+    edge_beam_volume_m3: float | None = _state("edge_beam_volume_m3")
+    edge_beam_utilization_max: float | None = _state("edge_beam_utilization_max")

@@ -1,0 +1,12 @@
+"""written.json: what the workflow wrote into the workbook beside it."""
+
+from dataclasses import dataclass
+
+from foldshell.records.entry import entry
+
+
+@dataclass(frozen=True, kw_only=True)
+class WrittenRecord:
+    """The contents of written.json: a workbook that differs was changed by a person."""
+
+    sha256: str = entry("SHA-256 of the bytes of thickness.xlsx as it was written")
