@@ -90,7 +90,7 @@ class ShellState:
         "largest utilization of a result cell of the edge beam", "-", left_out=True
     )
     edge_beam_utilization_panel_mean_max: float | None = entry(
-        "largest mean utilization of a piece of the edge beam", "-", left_out=True
+        "largest mean utilization of a panel of the edge beam", "-", left_out=True
     )
 
     @property

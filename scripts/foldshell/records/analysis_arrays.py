@@ -1,6 +1,6 @@
 """analysis.npz, final.npz, classes.npz and memory.npz: arrays of the sizing loop.
 
-Axes: P sized panels, B pieces of an edge beam, E elements, K result cells of an element, C
+Axes: P sized panels, B panels of an edge beam, E elements, K result cells of an element, C
 combinations (strength first), N nodes, D unknowns of the shell model, F those that are free, M
 linearised constraints.
 """
@@ -23,12 +23,12 @@ class AnalysisArrays:
     utilization_panel_mean: np.ndarray | None = array("P", "-", "area mean over a panel")
     utilization_element_max: np.ndarray | None = array("P", "-", "largest result cell of a panel")
     edge_beam_utilization_panel_mean: np.ndarray | None = array(
-        "B", "-", "area mean over a piece of the edge beam"
+        "B", "-", "area mean over a panel of the edge beam"
     )
     edge_beam_utilization_element_max: np.ndarray | None = array(
-        "B", "-", "largest result cell of a piece of the edge beam"
+        "B", "-", "largest result cell of a panel of the edge beam"
     )
-    edge_beam_panel: np.ndarray | None = array("B", "", "panel that a piece hangs from")
+    edge_beam_panel: np.ndarray | None = array("B", "", "panel of the sheet that holds each")
     displacement: np.ndarray | None = array(
         "D, C", "m and rad", "unknowns of the last state of a loop"
     )
@@ -52,7 +52,7 @@ class AnalysisArrays:
         return getattr(self, f"utilization_{measure}")
 
     def edge_beam_utilization(self, measure: str) -> np.ndarray | None:
-        """Return that of the pieces of the edge beam (B,), None where there is none."""
+        """Return that of the panels of the edge beam (B,), None where there is none."""
         return getattr(self, f"edge_beam_utilization_{measure}")
 
 

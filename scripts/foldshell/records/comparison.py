@@ -63,8 +63,13 @@ class ComparisonRecord:
     quantities: dict[str, ComparedQuantity] = entry("quantities by combination and key")
     not_compared: tuple[str, ...] = entry("what only one code gives")
     not_settled: tuple[str, ...] = entry("quantities whose iteration ended before it settled")
-    primary_subdivisions: tuple[int, ...] = entry("meshes of the primary code", COUNT)
-    independent_subdivisions: tuple[int, ...] = entry("meshes of the independent code", COUNT)
+    primary_subdivisions: tuple[float, ...] = entry(
+        "parts of a facet's side on each mesh of the primary code", COUNT
+    )
+    independent_subdivisions: tuple[int, ...] = entry(
+        "elements along a block's side on each mesh of the independent code", COUNT
+    )
+    solver: str = entry("path of the independent code: multifrontal or scipy")
     first: FirstComparison | None = entry(
         "the first comparison, where a second one on finer meshes stands", left_out=True
     )

@@ -1,14 +1,13 @@
 """docs/records.md: every result file, key by key, made from the record classes."""
 
 import dataclasses
-import types
 import typing
 from collections.abc import Iterable, Mapping, Sequence
 from typing import Any
 
 from foldshell.records.arrays import array_entries
 from foldshell.records.catalogue import ARRAYS, FILES, ResultFile
-from foldshell.records.entry import entries
+from foldshell.records.entry import entries, strip_null
 
 HEAD = """# Result files, key by key
 
@@ -31,9 +30,9 @@ def write_documentation() -> str:
     return "\n".join([*parts, *(_write_arrays(file) for file in ARRAYS)])
 
 
-AXES = """Axes: P sized panels, B pieces of an edge beam, E elements, K result cells of an element, C
-combinations (strength first), N nodes, D unknowns of the shell model, F those that are free, M
-linearised constraints, Q is P or 0. Names in parentheses may be missing.
+AXES = """Axes: P sized panels, B panels of an edge beam, E elements, K result cells of an element,
+C combinations (strength first), N nodes, D unknowns of the shell model, F those that are free,
+M linearised constraints, Q is P or 0. Names in parentheses may be missing.
 """
 
 
@@ -50,7 +49,7 @@ def _write_record(kind: type, told: set[type], named: bool) -> list[str]:
     rows = [
         (
             f"`{key}`" if about.required or not about.left_out else f"(`{key}`)",
-            _name_type(about.type),
+            _name_type(strip_null(about.type) if about.left_out else about.type),
             about.unit or " ",
             about.meaning,
         )
@@ -83,8 +82,8 @@ def _make_table(header: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
 def _name_type(hint: Any) -> str:
     """Return a type in words."""
     origin, inner = typing.get_origin(hint), typing.get_args(hint)
-    if origin in (types.UnionType, typing.Union):
-        return f"{_name_type(next(one for one in inner if one is not type(None)))} or null"
+    if strip_null(hint) is not hint:
+        return f"{_name_type(strip_null(hint))} or null"
     if origin is typing.Literal:
         return " \\| ".join(map(str, inner))
     if origin is tuple:

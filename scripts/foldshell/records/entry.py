@@ -1,6 +1,8 @@
 """What is said of a field of a result file: unit, meaning, words, the key it stands under."""
 
 import dataclasses
+import types
+import typing
 from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cache
@@ -92,6 +94,13 @@ def _describe(field: dataclasses.Field, hint: Any) -> Entry:
     required = field.default is dataclasses.MISSING
     return Entry(field.name, key, hint, unit, about["meaning"], words, about["form"],
                  about["left_out"], required)  # fmt: skip
+
+
+def strip_null(hint: Any) -> Any:
+    """Return an annotation without None: of `float | None` float; others as they are."""
+    if typing.get_origin(hint) in (types.UnionType, typing.Union):
+        return next(one for one in typing.get_args(hint) if one is not type(None))
+    return hint
 
 
 def name_key(key: str, unit: str) -> str:

@@ -70,6 +70,23 @@ class ForceRatioTrial:
 
 
 @dataclass(frozen=True, kw_only=True)
+class RuleDifference:
+    """A sheet folded by the paper's geometric rules, against the closed form."""
+
+    side_a_m: float = entry("side of a panel along a zig-zag", "m")
+    side_b_m: float = entry("side of a panel along a strip", "m")
+    sector_angle_deg: float = entry("sector angle of the cell", "deg")
+    fold_angle_deg: float = entry("fold angle of the cell", "deg")
+    travel_m: float = entry("travel of the point that drives the rules", "m")
+    travel_over_largest: float = entry("the same over its largest value", "-")
+    vertices_max_m: float = entry("largest distance of a vertex from the closed form", "m")
+    edge_strain_max: float = entry("largest strain of an edge", "-")
+    planarity_max: float = entry("largest planarity of a panel", "-")
+    angle_defect_max_rad: float = entry("largest defect of a vertex's angle sum", "rad")
+    kawasaki_max_rad: float = entry("largest defect of Kawasaki's sum at a vertex", "rad")
+
+
+@dataclass(frozen=True, kw_only=True)
 class KinematicsRecord:
     """The contents of kinematics.json."""
 
@@ -77,3 +94,6 @@ class KinematicsRecord:
     ratios: tuple[RatioRow, ...] = entry("Poisson's ratios on the folding path and at rest")
     sheets: tuple[SheetRecord, ...] = entry("mechanisms, isometries and soft modes by density")
     force_ratios: tuple[ForceRatioTrial, ...] = entry("the sweep of force strengths")
+    geometric_rules: tuple[RuleDifference, ...] = entry(
+        "the geometric rules of the paper's Fig. 1 against the closed form"
+    )

@@ -2,12 +2,11 @@
 
 import dataclasses
 import sys
-import types
 import typing
 from collections.abc import Mapping
 from typing import Any, TypeVar
 
-from foldshell.records.entry import Entry, entries
+from foldshell.records.entry import Entry, entries, strip_null
 from foldshell.settings.nearest import hint_nearest
 
 Record = TypeVar("Record")
@@ -70,10 +69,8 @@ def _to_record(kind: type, data: Any, place: str, closed: bool) -> Any:
 def _check(hint: Any, value: Any, place: str, closed: bool) -> Any:
     """Return a value as its annotation wants it: lists become tuples, whole numbers floats."""
     origin, inner = typing.get_origin(hint), typing.get_args(hint)
-    if origin in (types.UnionType, typing.Union):
-        if value is None and type(None) in inner:
-            return None
-        return _check(next(one for one in inner if one is not type(None)), value, place, closed)
+    if (needed := strip_null(hint)) is not hint:
+        return None if value is None else _check(needed, value, place, closed)
     if origin is typing.Literal:
         if value not in inner:
             allowed = ", ".join(map(str, inner))

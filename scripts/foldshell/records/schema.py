@@ -1,7 +1,6 @@
 """JSON Schemas of the result files, made from their record classes."""
 
 import dataclasses
-import types
 import typing
 from collections.abc import Mapping
 from pathlib import Path
@@ -9,7 +8,7 @@ from typing import Any
 
 from foldshell.files.whole import write_json
 from foldshell.records.catalogue import FILES, ResultFile
-from foldshell.records.entry import Entry, entries
+from foldshell.records.entry import Entry, entries, strip_null
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 SCALARS = {float: "number", int: "integer", str: "string", bool: "boolean"}
@@ -50,14 +49,15 @@ def _of_record(kind: type, found: dict[str, Schema]) -> Schema:
 
 
 def _of_entry(about: Entry, found: dict[str, Schema]) -> Schema:
-    schema = _of_type(about.type, found) | {"description": about.meaning}
+    hint = strip_null(about.type) if about.left_out else about.type
+    schema = _of_type(hint, found) | {"description": about.meaning}
     return schema | ({"unit": about.unit} if about.unit else {})
 
 
 def _of_type(hint: Any, found: dict[str, Schema]) -> Schema:
     origin, inner = typing.get_origin(hint), typing.get_args(hint)
-    if origin in (types.UnionType, typing.Union):
-        return _or_null(_of_type(next(one for one in inner if one is not type(None)), found))
+    if strip_null(hint) is not hint:
+        return _or_null(_of_type(strip_null(hint), found))
     if origin is typing.Literal:
         return {"enum": list(inner)}
     if origin is tuple:

@@ -1,7 +1,6 @@
 """Records in tables: .csv files with one row per record, and rows of cells for workbooks."""
 
 import csv
-import types
 import typing
 from collections.abc import Sequence
 from pathlib import Path
@@ -9,7 +8,7 @@ from typing import Any, TypeVar
 
 from foldshell.files.errors import InputError
 from foldshell.files.whole import atomic_path
-from foldshell.records.entry import Entry, entries
+from foldshell.records.entry import Entry, entries, strip_null
 from foldshell.records.plain import DamageError, from_plain
 
 Record = TypeVar("Record")
@@ -89,8 +88,7 @@ def _parse(about: Entry, text: str) -> Any:
 
 def _scalar(hint: Any) -> type:
     """Return the type of the cells of a column: float, int, bool or str."""
-    if typing.get_origin(hint) in (types.UnionType, typing.Union):
-        hint = next(one for one in typing.get_args(hint) if one is not type(None))
+    hint = strip_null(hint)
     return str if typing.get_origin(hint) is typing.Literal else hint
 
 
