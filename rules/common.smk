@@ -5,6 +5,7 @@ import math
 
 from foldshell.settings.designs import SURFACES, select_designs
 from foldshell.engine.imports import write_library_list
+from foldshell.records.catalogue import FILES
 from foldshell.settings.stages import choose_subdivisions, settings_hash, stage_parameters
 
 BY_NAME = {design.name: design for design in DESIGNS}
@@ -80,12 +81,15 @@ def names_of_tag(tag):
         return [design.name for design in select_designs(DESIGNS, tag, SETTINGS.designs)]
 
 
+SCHEMAS = [f"{RESULTS}/schemas/{file.name}.schema.json" for file in FILES]
+
+
 def study_files(tag):
-    """Return what is made of every design with a tag."""
+    """Return what is made of every design with a tag, and the schemas of these files."""
     files = ["design.xlsx", "design.vtu", "crosscheck/comparison.json", "page.html"]
     files += [f"figures/{name}.png" for name in PICTURES]
     developable_pattern = [f"pattern/developable_pattern.{kind}" for kind in ("fold", "dxf", "svg")]
-    return [
+    return SCHEMAS + [
         f"{RESULTS}/{name}/{file}"
         for name in names_of_tag(tag)
         for file in files + developable_pattern * (BY_NAME[name].fold_mode in ("exact", "rigid"))

@@ -17,6 +17,19 @@ def summary_rows(tag):
     ]
 
 
+rule schemas:
+    message:
+        "schemas of the result files"
+    input:
+        library=code_inputs("schemas"),
+    output:
+        SCHEMAS,
+    conda:
+        "../envs/foldshell.yaml"
+    script:
+        "../scripts/schemas.py"
+
+
 rule summary:
     message:
         "summary of the study"

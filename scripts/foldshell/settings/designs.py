@@ -33,7 +33,8 @@ COLUMNS = (
     "tags",
 )
 # Names under results/ that are not designs, and device names that Windows cannot create.
-_RESERVED = {"archive", "bench", "figures", "logs", "report", "con", "prn", "aux", "nul"}
+_RESERVED = {"archive", "bench", "figures", "logs", "report", "schemas"}
+_RESERVED |= {"con", "prn", "aux", "nul"}
 _RESERVED |= {f"{device}{number}" for device in ("com", "lpt") for number in range(1, 10)}
 _NUMBER = re.compile(r"[-+]?(0|[1-9][0-9]*)(\.[0-9]+)?([eE][-+]?[0-9]{1,2})?")
 _DESIGNS_MAX = 10_000
