@@ -1,48 +1,40 @@
-"""Verify results: `python scripts/verify.py`, or rule verify.
+"""Verify results by content: `python scripts/verify.py`, `foldshell verify`, or rule verify.
 
-Exit code 1 where a file was deleted, damaged or changed after it was made; with --repair those
-files and what was made from them are removed, so that the next run of Snakemake makes them anew.
+Says of each file that is not as it was made whether it is missing, damaged, edited by hand, left
+over or made by another version; exit code 1 where there is any. It needs the folder of results
+alone. With --repair what is damaged is taken away, with all that its jobs and later ones made, so
+that the next run of Snakemake makes it anew; copies stay under replaced/.
 """
 
 import argparse
 import sys
 from pathlib import Path
 
-from foldshell.engine.integrity import (
-    find_dependents,
-    find_faults,
-    keep_current,
-    read_records,
-)
-from foldshell.files.edits import keep_edited
+from foldshell.engine.integrity import find_faults, find_homes
+from foldshell.engine.repair import repair
 
 
-def main(root: str | Path = ".", results: str = "results", repair: bool = False) -> list[str]:
-    """Return a line a fault and what to do; empty where all files are as they were made."""
-    root = Path(root)
-    records = keep_current(read_records(root / ".snakemake/metadata"), results)
-    if not records:
-        return [f"{root / results}: no records of Snakemake: run it here first"]
-    faults = find_faults(root, records)
+def main(results: str | Path = "results", mend: bool = False) -> tuple[list[str], int]:
+    """Return lines, one per fault and what to do, and the exit code."""
+    if not find_homes(results):
+        return [f"{results}: no manifest and no record of a job: nothing was made here"], 1
+    faults = find_faults(results)
     lines = [f"{fault.path}: {fault.kind}: {fault.detail}" for fault in faults]
-    again = find_dependents(faults, records)
-    if again and repair:
-        for path in again:
-            keep_edited(root / path)
-            if (root / path).is_file():
-                (root / path).unlink()
-        lines.append(f"{len(again)} files removed: run snakemake to make them anew")
-    elif again:
+    open_faults = [fault for fault in faults if not fault.used]
+    broken = [fault for fault in open_faults if fault.kind != "edited by hand"]
+    if broken and mend:
+        count = len(repair(results, broken))
+        lines.append(f"{count} files taken away: run snakemake to make them anew")
+    elif broken:
         lines.append("type: python scripts/verify.py --repair, then run snakemake again")
-    return lines
+    return lines or ["every file is as it was made"], int(bool(open_faults))
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--root", default=".")
-    parser.add_argument("--results", default="results")
+    parser.add_argument("results", nargs="?", default="results")
     parser.add_argument("--repair", action="store_true")
     given = parser.parse_args()
-    found = main(given.root, given.results, given.repair)
-    print("\n".join(found) or "every file is as it was made")
-    sys.exit(1 if found else 0)
+    said, code = main(given.results, given.repair)
+    print("\n".join(said))
+    sys.exit(code)

@@ -1,166 +1,175 @@
-"""What Snakemake does not notice: results deleted, cut off or changed after they were made.
+"""Are results still what was made? By content alone: manifests and job records against files.
 
-Snakemake keeps a record of every output: the job's end and the SHA-256 of each input as the job
-read it. So each file that a later job has read can be compared with what that job saw; files that
-no job reads are opened, and their time is compared with the end of their job.
+Nothing but the folder of results is needed: neither the records of Snakemake, nor times of files,
+nor the machine on which they were made.
 """
 
-import base64
-import json
-import zipfile
-from collections.abc import Iterable, Mapping
+import os
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from foldshell.files.edits import is_edited
-from foldshell.files.whole import hash_file, read_arrays, read_json
+from foldshell.engine.workbook_state import judge_workbook
+from foldshell.files.edits import WORKBOOK
+from foldshell.files.errors import InputError
+from foldshell.files.job_record import FOLDER, FileState, JobRecord, read_record
+from foldshell.files.manifest import NAME, Manifest, read_manifest
+from foldshell.files.whole import hash_file
 
-CLOCK_SLACK = 2.0
-"""Seconds by which a file may be younger than the end of its job."""
-
-
-@dataclass(frozen=True)
-class JobRecord:
-    """An output (relative path), its rule, the end of its job (s) and {input: SHA-256 or None}."""
-
-    path: str
-    rule: str
-    ended: float
-    inputs: Mapping[str, str | None] = field(default_factory=dict)
+KINDS = ("missing", "damaged", "edited by hand", "made by another version", "left over")
 
 
 @dataclass(frozen=True)
 class Fault:
-    """A file that is not what was made: kind is deleted, damaged, changed or edited."""
+    """A file that is not what was made: `kind` is one of `KINDS`; `job` made it, if known.
 
-    path: str
+    `used` marks an edit that the analysis after it has read: nothing is to be done.
+    """
+
+    path: Path
     kind: str
     detail: str
+    job: str | None = None
+    used: bool = False
 
 
-def read_records(folder: str | Path) -> list[JobRecord]:
-    """Read `.snakemake/metadata`, in order of paths; records that cannot be read are left out."""
-    records = []
-    for file in sorted(path for path in Path(folder).rglob("*") if path.is_file()):
-        name = "".join(part.removeprefix("@") for part in file.relative_to(folder).parts)
-        try:
-            data = json.loads(file.read_text(encoding="utf-8"))
-            path = base64.urlsafe_b64decode(name.encode()).decode()
-            sums = data.get("input_checksums") or {}
-            inputs = {item: _digest(sums.get(item)) for item in data.get("input") or ()}
-            records.append(JobRecord(path, str(data["rule"]), float(data["endtime"]), inputs))
-        except (OSError, ValueError, KeyError, TypeError, AttributeError):
+@dataclass(frozen=True)
+class Home:
+    """The folder of a design or study, and what is known of it."""
+
+    folder: Path
+    manifest: Manifest | None
+    records: Mapping[str, JobRecord]
+    faults: tuple[Fault, ...] = ()
+    files: Mapping[str, FileState] = field(default_factory=dict)
+    job_of: Mapping[str, str] = field(default_factory=dict)
+    inputs: Mapping[str, list[str]] = field(default_factory=dict)
+
+
+def find_homes(results: str | Path) -> list[Path]:
+    """Return the folders below `results` that hold a manifest or records of jobs, sorted."""
+    found = []
+    for folder, names, files in os.walk(results):
+        names.sort()
+        if FOLDER in names or NAME in files:
+            found.append(Path(folder))
+    return found
+
+
+def read_home(folder: str | Path) -> Home:
+    """Read manifest and records of a folder; what cannot be read is a fault.
+
+    A job that is newer than the manifest counts by its record.
+    """
+    folder = Path(folder)
+    faults: list[Fault] = []
+    manifest = _read_or_note(read_manifest, folder / NAME, faults)
+    records: dict[str, JobRecord] = {}
+    for path in sorted((folder / FOLDER).glob("*.json")):
+        record = _read_or_note(read_record, path, faults)
+        if record is not None:
+            records[record.name] = record
+    listed = manifest.files if manifest else {}
+    files, job_of = dict(listed), dict(manifest.job_of if manifest else {})
+    inputs = dict(manifest.inputs if manifest else {})
+    for record in records.values():
+        if manifest and f"{FOLDER}/{record.name}.json" in listed:
             continue
-    return sorted(records, key=lambda record: record.path)
+        files |= record.outputs
+        job_of |= dict.fromkeys(record.outputs, record.name)
+        inputs[record.name] = list(record.inputs)
+    return Home(folder, manifest, records, tuple(faults), files, job_of, inputs)
 
 
-def _digest(checksum: str | None) -> str | None:
-    return checksum.removeprefix("sha256:") if checksum else None
-
-
-def keep_current(records: Iterable[JobRecord], results: str) -> list[JobRecord]:
-    """Leave out what is not under `results`, and iterations past the last of a design.
-
-    A loop that ended sooner than in an earlier run leaves records of files that were removed.
-    """
-    records = [record for record in records if Path(record.path).is_relative_to(results)]
-    used = {name for record in records if record.rule == "size" for name in record.inputs}
-    counts: dict[Path, int] = {}
-    for name in used:
-        place = _iteration(name)
-        if place:
-            counts[place[0]] = max(place[1], counts.get(place[0], 0))
-    return [record for record in records if not _is_superseded(record.path, counts)]
-
-
-def _iteration(path: str) -> tuple[Path, int] | None:
-    """Return the folder `sizing` and the number of the iteration that a file belongs to."""
-    folder = Path(path).parent
-    return (folder.parent, int(folder.name)) if folder.name.isdigit() else None
-
-
-def _is_superseded(path: str, counts: Mapping[Path, int]) -> bool:
-    place = _iteration(path)
-    return place is not None and place[0] in counts and place[1] > counts[place[0]]
-
-
-def find_faults(root: str | Path, records: Iterable[JobRecord]) -> list[Fault]:
-    """Compare files under `root` with the records; an order of paths, one fault a file."""
-    root, records = Path(root), list(records)
-    readers: dict[str, dict[str, JobRecord]] = {}
-    for record in records:
-        for name, digest in record.inputs.items():
-            if digest:
-                readers.setdefault(name, {}).setdefault(digest, record)
-    found = [_check(root, record, readers.get(record.path, {})) for record in records]
-    return [fault for fault in found if fault]
-
-
-def _check(root: Path, record: JobRecord, readers: Mapping[str, JobRecord]) -> Fault | None:
-    path = root / record.path
-    if not path.exists():
-        return Fault(record.path, "deleted", f"made by rule {record.rule}")
-    if path.name == "thickness.xlsx" and is_edited(path):
-        return Fault(record.path, "edited", "the next run redoes what follows it")
-    if path.is_dir():
+def _read_or_note(reader, path: Path, faults: list[Fault]):
+    if not os.path.lexists(path):
         return None
-    problem = find_damage(path)
-    if problem:
-        return Fault(record.path, "damaged", problem)
-    if readers:
-        digest = hash_file(path)
-        other = [reader.rule for known, reader in readers.items() if known != digest]
-        return Fault(record.path, "changed", f"since rule {other[0]} read it") if other else None
-    late = path.stat().st_mtime - record.ended
-    if late > CLOCK_SLACK:
-        return Fault(record.path, "changed", f"{late:.0f} s after its rule {record.rule} ended")
-    return None
-
-
-def find_damage(path: Path) -> str | None:
-    """Say what shows that a file is cut off or not of its kind; None where nothing does."""
-    if path.stat().st_size == 0:
-        return "empty"
     try:
-        if path.suffix in (".json", ".fold"):
-            read_json(path)
-        elif path.suffix == ".npz":
-            read_arrays(path)
-        elif path.suffix in (".xlsx", ".zip"):
-            with zipfile.ZipFile(path) as archive:
-                broken = archive.testzip()
-            return f"{broken} in it is damaged" if broken else None
-        else:
-            return _find_cut(path)
-    except (OSError, ValueError, EOFError, zipfile.BadZipFile):
-        return f"cannot be read as {path.suffix}"
-    return None
-
-
-def _find_cut(path: Path) -> str | None:
-    """Look for the end that every whole file of a kind has."""
-    ends = {".png": b"IEND\xaeB`\x82", ".vtu": b"</VTKFile>", ".svg": b"</svg>"}
-    if path.suffix not in ends:
+        return reader(path)
+    except InputError as error:
+        words = str(error).removeprefix(f"{path}: ")
+        other = "version" in words
+        faults.append(Fault(path, KINDS[3] if other else "damaged", words))
         return None
-    with open(path, "rb") as stream:
-        stream.seek(max(0, path.stat().st_size - 64))
-        return None if ends[path.suffix] in stream.read() else "its end is missing"
 
 
-def find_dependents(faults: Iterable[Fault], records: Iterable[JobRecord]) -> list[str]:
-    """Return the faulty files, but edited workbooks, and all that was made from them, in order.
+def find_faults(results: str | Path) -> list[Fault]:
+    """Compare all files below a folder of results with what was made, in order of paths."""
+    homes = [read_home(folder) for folder in find_homes(results)]
+    faults = [fault for home in homes for fault in check_home(home)]
+    return sorted(faults, key=lambda fault: str(fault.path))
 
-    Once these are gone Snakemake makes them anew, and nothing else.
-    """
-    made_from: dict[str, set[str]] = {}
-    for record in records:
-        for name in record.inputs:
-            made_from.setdefault(name, set()).add(record.path)
-    waiting = [fault.path for fault in faults if fault.kind != "edited"]
+
+def check_home(home: Home) -> Iterator[Fault]:
+    """Yield the faults of one folder."""
+    yield from home.faults
+    known = {fault.path for fault in home.faults}
+    for name, state in home.files.items():
+        path = home.folder / name
+        fault = None if path in known else check_file(path, state, home.job_of.get(name))
+        if fault and path.name == WORKBOOK and fault.kind == "damaged":
+            fault = judge_workbook(home, name, fault)
+        if fault:
+            yield fault
+    yield from _find_left_over(home)
+    yield from _check_members(home)
+
+
+def check_file(path: Path, state: FileState, job: str | None) -> Fault | None:
+    """Return what is wrong with a file by its content, None where nothing is."""
+    if not os.path.lexists(path):
+        return Fault(path, "missing", f"made by job {job}", job)
+    if path.is_symlink():
+        return Fault(path, "damaged", "a link stands in its place", job)
+    if not path.is_file():
+        return Fault(path, "damaged", "something that is no file stands in its place", job)
+    try:
+        size, digest = path.stat().st_size, hash_file(path)
+    except OSError as error:
+        return Fault(path, "damaged", f"cannot be read: {error.strerror}", job)
+    if digest == state.sha256:
+        return None
+    if size == 0:
+        return Fault(path, "damaged", "empty", job)
+    if size < state.bytes:
+        return Fault(path, "damaged", f"{size} of {state.bytes} bytes", job)
+    return Fault(path, "damaged", "its content is not what was made", job)
+
+
+def _find_left_over(home: Home) -> Iterator[Fault]:
+    """Yield iterations that belong to no loop of the manifest."""
+    if home.manifest is None:
+        return
+    listed = {Path(name).parts[1] for name in home.files if name.startswith("sizing/")}
+    for folder in sorted((home.folder / "sizing").glob("[0-9][0-9]")):
+        if folder.name not in listed:
+            yield Fault(folder, "left over", "an iteration that the design does not have")
+
+
+def _check_members(home: Home) -> Iterator[Fault]:
+    """Yield the designs of a study whose manifest is gone, or not the one that was gathered."""
+    for name, digest in (home.manifest.members if home.manifest else {}).items():
+        path = Path(os.path.normpath(home.folder / name))
+        if not path.is_file():
+            yield Fault(path, "missing", f"the manifest of a design of study {home.manifest.title}")
+        elif hash_file(path) != digest:
+            yield Fault(path, "damaged", f"not the one that study {home.manifest.title} gathered")
+
+
+def find_dependents(home: Home, names: Iterable[str]) -> list[str]:
+    """Return the jobs that made these files, and all jobs that read what those made, in order."""
+    made: dict[str, set[str]] = {}
+    for name, job in home.job_of.items():
+        made.setdefault(job, set()).add(name)
+    waiting = [home.job_of[name] for name in names if name in home.job_of]
     found: set[str] = set()
     while waiting:
-        path = waiting.pop()
-        if path not in found:
-            found.add(path)
-            waiting.extend(made_from.get(path, ()))
+        job = waiting.pop()
+        if job not in found:
+            found.add(job)
+            waiting += [
+                other
+                for other, read in home.inputs.items()
+                if not made.get(job, set()).isdisjoint(read)
+            ]
     return sorted(found)

@@ -1,0 +1,90 @@
+"""The frame in which a rule's script runs: errors in one line, and a record of the job."""
+
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+from foldshell.files.errors import user_errors
+from foldshell.files.job_record import JobRecord, hash_inputs, list_outputs, state_of, write_record
+from foldshell.files.whole import hash_data, hash_file
+
+CODE = "library"
+"""The name of the input that lists the library files of a rule with their hashes."""
+
+
+@contextmanager
+def run_job(task: Any) -> Iterator[None]:
+    """Run the block as the job `task` (the global `snakemake` of a script), then record it.
+
+    Inputs are hashed before the block, outputs after it: what is recorded is what the job read and
+    wrote. An error that a person can act on becomes one line and leaves no record.
+    """
+    with user_errors():
+        inputs = hash_inputs(task.input)
+        yield
+        record = describe_job(task, inputs)
+        write_record(find_home(list(map(str, task.output)), dict(task.wildcards.items())), record)
+
+
+def describe_job(task: Any, inputs: Mapping[str, str]) -> JobRecord:
+    """Return the record of a job that has ended; `inputs` {path: SHA-256} as it began."""
+    wildcards = {name: str(value) for name, value in task.wildcards.items()}
+    home = find_home(list(map(str, task.output)), wildcards)
+    code = str(task.input.get(CODE, ""))
+    own, external = {}, {}
+    for path, digest in inputs.items():
+        if path != code:
+            inside = Path(path).is_relative_to(home)
+            (own if inside else external)[_relative(path, home) if inside else path] = digest
+    outputs = {_relative(path, home): state_of(path) for path in list_outputs(task.output)}
+    return JobRecord(
+        name=name_job(task.rule, wildcards),
+        rule=task.rule,
+        wildcards=wildcards,
+        outputs=outputs,
+        inputs=own,
+        external={_shorten(path): digest for path, digest in external.items()},
+        params_sha256=hash_data(_plain({key: value for key, value in task.params.items()})),
+        code_sha256=hash_file(code) if code else "",
+    )
+
+
+def name_job(rule: str, wildcards: Mapping[str, str]) -> str:
+    """Return the name of a job within its folder: the rule, and wildcards but design and tag."""
+    more = [value for key, value in wildcards.items() if key not in ("design", "tag")]
+    return "-".join([rule, *more])
+
+
+def find_home(outputs: list[str], wildcards: Mapping[str, str]) -> Path:
+    """Return the folder of the design or study that a job's outputs belong to.
+
+    It is the one with the name of the design; else the one below `studies`; else that of the first
+    output.
+    """
+    first = Path(outputs[0])
+    design = wildcards.get("design")
+    for folder in first.parents:
+        if folder.name == design or folder.parent.name == "studies":
+            return folder
+    return first.parent
+
+
+def _relative(path: str | Path, home: Path) -> str:
+    return Path(path).relative_to(home).as_posix()
+
+
+def _shorten(path: str) -> str:
+    """Return a path without what tells of the machine: relative to the project, else its name."""
+    here = Path.cwd()
+    full = Path(path).absolute()
+    return full.relative_to(here).as_posix() if full.is_relative_to(here) else Path(path).name
+
+
+def _plain(value: Any) -> Any:
+    """Return parameters as plain data, to be hashed: named lists of Snakemake become lists."""
+    if isinstance(value, Mapping):
+        return {str(key): _plain(item) for key, item in value.items()}
+    if isinstance(value, list | tuple):
+        return [_plain(item) for item in value]
+    return value if isinstance(value, str | int | float | bool | None) else str(value)
