@@ -65,6 +65,7 @@ include: "rules/sizing.smk"
 include: "rules/crosscheck.smk"
 include: "rules/study.smk"
 include: "rules/deliver.smk"
+include: "rules/manifest.smk"
 include: "rules/figures.smk"
 include: "rules/report.smk"
 

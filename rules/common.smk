@@ -4,7 +4,7 @@ import functools
 import math
 
 from foldshell.settings.designs import SURFACES, select_designs
-from foldshell.engine.imports import write_library_list
+from foldshell.engine.imports import write_content_list, write_library_list
 from foldshell.records.catalogue import FILES
 from foldshell.settings.stages import choose_subdivisions, settings_hash, stage_parameters
 
@@ -60,6 +60,12 @@ def surface_file(wildcards):
     return [] if surface in SURFACES else [surface]
 
 
+def surface_content(wildcards):
+    """Return a file whose name tells the content of a design's surface file, as an input beside it:
+    the content decides whether a rule runs again, not the date."""
+    return [write_content_list([path], ".snakemake/library") for path in surface_file(wildcards)]
+
+
 def timing(rule, suffix=""):
     """Return where the time and memory of each job of a rule are kept."""
     return f"{RESULTS}/benchmarks/{rule}/{{design}}{suffix}.tsv"
@@ -84,15 +90,20 @@ def names_of_tag(tag):
 SCHEMAS = [f"{RESULTS}/schemas/{file.name}.schema.json" for file in FILES]
 
 
+def design_files(name):
+    """Return what is made of a design, but its manifest."""
+    files = ["design.xlsx", "design.vtu", "crosscheck/comparison.json", "page.html"]
+    files += [f"figures/{picture}.png" for picture in PICTURES]
+    unfolded = [f"pattern/developable_pattern.{kind}" for kind in ("fold", "dxf", "svg")]
+    files += unfolded * (BY_NAME[name].fold_mode in ("exact", "rigid"))
+    return [f"{RESULTS}/{name}/{file}" for file in files]
+
+
 def study_files(tag):
     """Return what is made of every design with a tag, and the schemas of these files."""
-    files = ["design.xlsx", "design.vtu", "crosscheck/comparison.json", "page.html"]
-    files += [f"figures/{name}.png" for name in PICTURES]
-    developable_pattern = [f"pattern/developable_pattern.{kind}" for kind in ("fold", "dxf", "svg")]
+    names = names_of_tag(tag)
     return SCHEMAS + [
-        f"{RESULTS}/{name}/{file}"
-        for name in names_of_tag(tag)
-        for file in files + developable_pattern * (BY_NAME[name].fold_mode in ("exact", "rigid"))
+        file for name in names for file in [*design_files(name), f"{RESULTS}/{name}/manifest.json"]
     ]
 
 

@@ -63,12 +63,3 @@ rule page:
         "../envs/foldshell.yaml"
     script:
         "../scripts/page.py"
-
-
-rule verify:
-    message:
-        "do the results still agree with what made them?"
-    params:
-        results=RESULTS,
-    script:
-        "../scripts/verify.py"

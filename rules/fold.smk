@@ -4,6 +4,7 @@ rule fold:
     input:
         fold=rules.pattern.output.fold,
         surface=surface_file,
+        content=surface_content,
         library=code_inputs("fold"),
     output:
         folded=f"{RESULTS}/{{design}}/folded/folded.npz",

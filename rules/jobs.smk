@@ -12,7 +12,7 @@ LOADED += ["foldshell.shell.ready", "cvxopt.amd", "group", "size", "neutral_mode
 LOADED += ["compare", "crosscheck.verdict", "crosscheck.workbook", "draw", "meshio", "page"]
 LOADED += ["vtkmodules.vtkRenderingOpenGL2", "vtkmodules.util.numpy_support", "ezdxf"]
 LOADED += ["sensitivity", "flat_equal", "summary", "timings", "report_pages", "all_designs"]
-LOADED += ["study_figures", "matplotlib.backends.backend_agg", "matplotlib.backends.backend_svg"]
+LOADED += ["study_figures", "manifest", "matplotlib.backends.backend_agg", "matplotlib.backends.backend_svg"]
 # Rules whose process stays for the next job of a kind ("shell", "pictures"). Analyses of a design follow each other: the
 # next one finds the mesh's operators, the order of elimination and memory there, a quarter of its
 # time. Pictures find the renderer set up.

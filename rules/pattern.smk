@@ -3,6 +3,7 @@ rule pattern:
         "{wildcards.design}: crease pattern"
     input:
         surface=surface_file,
+        content=surface_content,
         library=code_inputs("pattern"),
     output:
         fold=f"{RESULTS}/{{design}}/pattern/crease_pattern.fold",

@@ -4,10 +4,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from foldshell.engine.job import run_job
 from foldshell.figures.contact_sheet import draw_sheets, make_tile
 from foldshell.figures.layout import save_png
 from foldshell.figures.study_data import read_states
-from foldshell.files.errors import user_errors
 from foldshell.results.design_view import read_limits, view_design
 
 
@@ -31,7 +31,7 @@ def main(
 
 
 if "snakemake" in globals():
-    with user_errors():
+    with run_job(snakemake):  # noqa: F821
         main(
             snakemake.input.summary,  # noqa: F821
             snakemake.params.results,  # noqa: F821

@@ -5,10 +5,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from foldshell.engine.job import run_job
 from foldshell.engine.progress import describe_iteration
 from foldshell.files.edits import keep_edited
-from foldshell.files.errors import user_errors
-from foldshell.files.whole import hash_file, read_arrays, read_json, write_arrays, write_json
+from foldshell.files.whole import hash_file, read_arrays, read_json, write_arrays, write_timed_json
 from foldshell.sizing.case import make_stop_rule, open_case
 from foldshell.sizing.iteration import IterationTask
 from foldshell.workbook.panels import make_panel_grid
@@ -41,13 +41,13 @@ def main(
     report["edited"] = edited
     report["workbook_sha256"] = hash_file(workbook_path)
     write_arrays(arrays_path, fields)
-    write_json(json_path, report)
+    write_timed_json(json_path, report)
     # One write a line, so that lines of parallel jobs do not mix.
     sys.stderr.write(describe_iteration(design, report) + "\n")
 
 
 if "snakemake" in globals():
-    with user_errors():
+    with run_job(snakemake):  # noqa: F821
         main(
             snakemake.input.mesh,  # noqa: F821
             snakemake.input.workbook,  # noqa: F821

@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from foldshell.files.errors import user_errors
+from foldshell.engine.job import run_job
 from foldshell.folding.animation import draw_states, list_states, write_animation, write_stills
 from foldshell.pattern.fold_format import read_fold
 
@@ -23,7 +23,7 @@ def main(
 
 
 if "snakemake" in globals():
-    with user_errors():
+    with run_job(snakemake):  # noqa: F821
         main(
             snakemake.input.fold,  # noqa: F821
             snakemake.output.gif,  # noqa: F821

@@ -9,7 +9,7 @@ from foldshell.claims.gather import Sources, read_sources
 from foldshell.claims.sensitivity import describe_variants
 from foldshell.claims.study import judge_study, list_runs, write_spread
 from foldshell.claims.words import write_claims
-from foldshell.files.errors import user_errors
+from foldshell.engine.job import run_job
 from foldshell.files.whole import atomic_path, write_json
 from foldshell.workbook.tables import write_csv
 
@@ -41,7 +41,7 @@ def main(
 
 
 if "snakemake" in globals():
-    with user_errors():
+    with run_job(snakemake):  # noqa: F821
         main(
             snakemake.params.results,  # noqa: F821
             snakemake.output.json,  # noqa: F821

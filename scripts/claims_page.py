@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from foldshell.files.errors import user_errors
+from foldshell.engine.job import run_job
 from foldshell.files.whole import atomic_path
 from foldshell.report.study_pages import write_markdown_page
 
@@ -15,5 +15,5 @@ def main(claims: str | Path, page: str | Path) -> None:
 
 
 if "snakemake" in globals():
-    with user_errors():
+    with run_job(snakemake):  # noqa: F821
         main(snakemake.input.claims, snakemake.output.page)  # noqa: F821

@@ -49,7 +49,9 @@ def main(
 
 
 if "snakemake" in globals():
-    with report_errors():
+    from foldshell.engine.job import run_job  # only notes what was read and written
+
+    with report_errors(), run_job(snakemake):  # noqa: F821
         main(
             snakemake.input.model,  # noqa: F821
             snakemake.input.primary,  # noqa: F821

@@ -4,10 +4,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from foldshell.engine.job import run_job
 from foldshell.exchange.design_vtu import write_design_vtu, write_lines_vtu
 from foldshell.figures.layout import save_png
 from foldshell.figures.pictures import draw_design
-from foldshell.files.errors import user_errors
 from foldshell.results.design_view import view_design
 from foldshell.results.state import read_state
 from foldshell.settings.material import Material
@@ -45,7 +45,7 @@ def main(
 
 
 if "snakemake" in globals():
-    with user_errors():
+    with run_job(snakemake):  # noqa: F821
         files = dict(snakemake.output.items())  # noqa: F821
         main(
             snakemake.input.mesh,  # noqa: F821

@@ -6,7 +6,7 @@ from typing import Any
 
 from foldshell.claims.flat_equal import analyse_flat
 from foldshell.claims.measures import Layout
-from foldshell.files.errors import user_errors
+from foldshell.engine.job import run_job
 from foldshell.files.whole import read_arrays, read_json, write_json
 
 
@@ -33,7 +33,7 @@ def main(
 
 
 if "snakemake" in globals():
-    with user_errors():
+    with run_job(snakemake):  # noqa: F821
         main(
             snakemake.input.flat,  # noqa: F821
             snakemake.input.final,  # noqa: F821

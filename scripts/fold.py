@@ -4,7 +4,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from foldshell.files.errors import InputError, user_errors
+from foldshell.engine.job import run_job
+from foldshell.files.errors import InputError
 from foldshell.folding.files import write_folded, write_folded_vtu, write_quality
 from foldshell.folding.fold import fold_sheet
 from foldshell.folding.settings import read_settings
@@ -44,7 +45,7 @@ def main(
 
 
 if "snakemake" in globals():
-    with user_errors():
+    with run_job(snakemake):  # noqa: F821
         main(
             snakemake.input.fold,  # noqa: F821
             snakemake.output.folded,  # noqa: F821

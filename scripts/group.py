@@ -4,8 +4,9 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from foldshell.files.errors import InputError, user_errors
-from foldshell.files.whole import read_arrays, read_json, write_arrays, write_json
+from foldshell.engine.job import run_job
+from foldshell.files.errors import InputError
+from foldshell.files.whole import read_arrays, read_json, write_arrays, write_timed_json
 from foldshell.sizing.case import open_case
 from foldshell.sizing.grouping import analyse_classes
 
@@ -30,11 +31,11 @@ def main(
         ) from None
     found, fields = analyse_classes(open_case(mesh_path, settings), span_m, report, arrays, classes)
     write_arrays(arrays_path, fields)
-    write_json(json_path, found)
+    write_timed_json(json_path, found)
 
 
 if "snakemake" in globals():
-    with user_errors():
+    with run_job(snakemake):  # noqa: F821
         main(
             snakemake.input.mesh,  # noqa: F821
             snakemake.input.analyses,  # noqa: F821

@@ -4,7 +4,7 @@ import math
 from dataclasses import asdict
 from pathlib import Path
 
-from foldshell.files.errors import user_errors
+from foldshell.engine.job import run_job
 from foldshell.files.whole import write_json
 from foldshell.kinematics.figure import draw_kinematics
 from foldshell.kinematics.geometric_rules import tabulate_differences
@@ -46,7 +46,7 @@ def main(
 
 
 if "snakemake" in globals():
-    with user_errors():
+    with run_job(snakemake):  # noqa: F821
         main(
             snakemake.output.table,  # noqa: F821
             snakemake.output.rules,  # noqa: F821

@@ -4,7 +4,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from foldshell.files.errors import InputError, user_errors
+from foldshell.engine.job import run_job
+from foldshell.files.errors import InputError
 from foldshell.files.whole import read_arrays
 from foldshell.folding.intersections import find_piercing
 from foldshell.shell.edge_beams import make_edge_beam
@@ -48,7 +49,7 @@ def _check_edge_beam(arrays: Mapping[str, Any], sheet: int, design: str) -> None
 
 
 if "snakemake" in globals():
-    with user_errors():
+    with run_job(snakemake):  # noqa: F821
         main(
             snakemake.input.folded,  # noqa: F821
             snakemake.output.mesh,  # noqa: F821

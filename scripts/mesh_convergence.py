@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from foldshell.files.errors import user_errors
+from foldshell.engine.job import run_job
 from foldshell.files.whole import read_arrays, write_json
 from foldshell.loads.cases import Loads
 from foldshell.results.mesh_convergence import estimate_errors, find_largest_errors, study_mesh
@@ -47,7 +47,7 @@ def main(
 
 
 if "snakemake" in globals():
-    with user_errors():
+    with run_job(snakemake):  # noqa: F821
         main(
             snakemake.input.folded,  # noqa: F821
             snakemake.input.final,  # noqa: F821

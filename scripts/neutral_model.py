@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from foldshell.engine.job import run_job
 from foldshell.exchange.neutral_model import make_neutral_model
-from foldshell.files.errors import user_errors
 from foldshell.files.whole import read_arrays, write_json
 
 
@@ -24,7 +24,7 @@ def main(
 
 
 if "snakemake" in globals():
-    with user_errors():
+    with run_job(snakemake):  # noqa: F821
         main(
             snakemake.input.mesh,  # noqa: F821
             snakemake.input.final,  # noqa: F821

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from foldshell.files.errors import user_errors
+from foldshell.engine.job import run_job
 from foldshell.files.whole import atomic_path
 from foldshell.report.page import write_design_page
 from foldshell.report.sections import read_files
@@ -46,7 +46,7 @@ def main(
 
 
 if "snakemake" in globals():
-    with user_errors():
+    with run_job(snakemake):  # noqa: F821
         main(
             snakemake.input,  # noqa: F821
             {Path(path).stem: path for path in snakemake.input.pictures},  # noqa: F821

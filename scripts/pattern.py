@@ -4,7 +4,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from foldshell.files.errors import InputError, user_errors
+from foldshell.engine.job import run_job
+from foldshell.files.errors import InputError
 from foldshell.folding.targets import make_target, measure_turning
 from foldshell.pattern.design import design_sheet
 from foldshell.pattern.drawings import draw_pattern, write_dxf, write_svg
@@ -50,7 +51,7 @@ def main(
 
 
 if "snakemake" in globals():
-    with user_errors():
+    with run_job(snakemake):  # noqa: F821
         main(
             snakemake.output.fold,  # noqa: F821
             design=snakemake.wildcards.design,  # noqa: F821

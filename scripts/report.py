@@ -7,7 +7,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from foldshell.files.errors import InputError, user_errors
+from foldshell.engine.job import run_job
+from foldshell.files.errors import InputError
 from foldshell.files.whole import atomic_path
 
 
@@ -36,7 +37,7 @@ def main(
 
 
 if "snakemake" in globals():
-    with user_errors():
+    with run_job(snakemake):  # noqa: F821
         main(
             snakemake.output.report,  # noqa: F821
             snakemake.input.stylesheet,  # noqa: F821

@@ -6,7 +6,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from foldshell.files.errors import user_errors
+from foldshell.engine.job import run_job
 from foldshell.files.whole import atomic_path
 from foldshell.report.study_pages import (
     write_markdown_page,
@@ -39,7 +39,7 @@ def main(
 
 
 if "snakemake" in globals():
-    with user_errors():
+    with run_job(snakemake):  # noqa: F821
         main(
             snakemake.input.summary,  # noqa: F821
             snakemake.input.verification,  # noqa: F821

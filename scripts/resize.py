@@ -4,8 +4,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from foldshell.files.edits import record_written
-from foldshell.files.errors import user_errors
+from foldshell.engine.job import run_job
+from foldshell.files.edits import recorded_workbook
 from foldshell.files.whole import read_arrays, read_json, write_arrays
 from foldshell.sizing.step import summarise_step, take_step
 from foldshell.workbook.panels import ThicknessTable, make_panel_grid
@@ -39,13 +39,13 @@ def main(
         make_panel_grid(zigzag, strip), new, thickness, used, new / thickness - 1, following.note
     )
     summary = summarise_step(design, analysis, sizing) | {"settings_hash": settings_hash}
-    write_thickness(workbook_path, table, summary, *(sizing[name] for name in LIMITS))
     write_arrays(memory_path, following.memory)
-    record_written(workbook_path, record_path)
+    with recorded_workbook(workbook_path, record_path) as temporary:
+        write_thickness(temporary, table, summary, *(sizing[name] for name in LIMITS))
 
 
 if "snakemake" in globals():
-    with user_errors():
+    with run_job(snakemake):  # noqa: F821
         main(
             *snakemake.input.analysis,  # noqa: F821
             snakemake.output.workbook,  # noqa: F821

@@ -6,7 +6,7 @@ from typing import Any
 
 from foldshell.claims.measures import Layout, measure_state
 from foldshell.claims.sensitivity import VARIANTS, change_settings
-from foldshell.files.errors import user_errors
+from foldshell.engine.job import run_job
 from foldshell.files.whole import read_arrays, write_json
 from foldshell.sizing.case import open_case
 from foldshell.sizing.loop import run_loop
@@ -42,7 +42,7 @@ def main(
 
 
 if "snakemake" in globals():
-    with user_errors():
+    with run_job(snakemake):  # noqa: F821
         main(
             snakemake.input.mesh,  # noqa: F821
             snakemake.output.json,  # noqa: F821

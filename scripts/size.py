@@ -7,7 +7,7 @@ from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
-from foldshell.files.errors import user_errors
+from foldshell.engine.job import run_job
 from foldshell.files.whole import atomic_path, read_arrays, read_json, write_json
 from foldshell.results.gather import gather_iterations, remove_superseded
 from foldshell.workbook.design import write_design
@@ -47,7 +47,7 @@ def main(
 
 
 if "snakemake" in globals():
-    with user_errors():
+    with run_job(snakemake):  # noqa: F821
         main(
             snakemake.input.analyses,  # noqa: F821
             snakemake.input.classes,  # noqa: F821

@@ -4,8 +4,8 @@ from pathlib import Path
 
 import numpy as np
 
-from foldshell.files.edits import record_written
-from foldshell.files.errors import user_errors
+from foldshell.engine.job import run_job
+from foldshell.files.edits import recorded_workbook
 from foldshell.workbook.panels import ThicknessTable, make_panel_grid
 from foldshell.workbook.write_thickness import write_thickness
 
@@ -33,12 +33,12 @@ def main(
         "largest_thickness_m": largest_thickness,
         "settings_hash": settings_hash,
     }
-    write_thickness(workbook_path, table, summary, least_thickness, largest_thickness)
-    record_written(workbook_path, record_path)
+    with recorded_workbook(workbook_path, record_path) as temporary:
+        write_thickness(temporary, table, summary, least_thickness, largest_thickness)
 
 
 if "snakemake" in globals():
-    with user_errors():
+    with run_job(snakemake):  # noqa: F821
         main(
             snakemake.output.workbook,  # noqa: F821
             snakemake.output.record,  # noqa: F821

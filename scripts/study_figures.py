@@ -4,10 +4,10 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from foldshell.engine.job import run_job
 from foldshell.figures.charts import draw_axes_comparison, draw_comparison, save_figure
 from foldshell.figures.planarity_chart import draw_planarity_chart
 from foldshell.figures.study_data import COMPARISONS, add_fields, read_states
-from foldshell.files.errors import user_errors
 from foldshell.results.design_view import read_limits
 
 OTHERS = {"axes": draw_axes_comparison, "planarity_utilization": draw_planarity_chart}
@@ -38,7 +38,7 @@ def main(
 
 
 if "snakemake" in globals():
-    with user_errors():
+    with run_job(snakemake):  # noqa: F821
         main(
             snakemake.input.summary,  # noqa: F821
             results=snakemake.params.results,  # noqa: F821

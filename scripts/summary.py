@@ -4,7 +4,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from foldshell.files.errors import InputError, user_errors
+from foldshell.engine.job import run_job
+from foldshell.files.errors import InputError
 from foldshell.results.summary import SUMMARY_KEYS, make_summary_row
 from foldshell.settings.stages import settings_hash
 from foldshell.workbook.summary import write_summary
@@ -33,7 +34,7 @@ def main(
 
 
 if "snakemake" in globals():
-    with user_errors():
+    with run_job(snakemake):  # noqa: F821
         main(
             designs=snakemake.params.designs,  # noqa: F821
             results=snakemake.params.results,  # noqa: F821

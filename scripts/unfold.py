@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from foldshell.files.errors import InputError, user_errors
+from foldshell.engine.job import run_job
+from foldshell.files.errors import InputError
 from foldshell.files.whole import read_arrays
 from foldshell.pattern.drawings import draw_pattern, write_dxf, write_svg
 from foldshell.pattern.fold_format import read_fold, write_fold
@@ -62,7 +63,7 @@ def name_flat_state(grid: Grid, folded: Mapping[str, np.ndarray], fold_mode: str
 
 
 if "snakemake" in globals():
-    with user_errors():
+    with run_job(snakemake):  # noqa: F821
         main(
             snakemake.input.pattern,  # noqa: F821
             snakemake.input.folded,  # noqa: F821

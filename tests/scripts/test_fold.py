@@ -42,7 +42,7 @@ def test_files_keep_the_contract(tmp_path, kind):
     keys = """
         state reason rms_over_span max_over_span edge_strain_max edge_strain_rms iterations
         angle_defect_max_rad planarity_max planarity_mean neutral_fold_mean_deg flipped_folds
-        self_intersections plan_coverage seconds
+        self_intersections plan_coverage
     """
     keys = keys.split()
     assert set(keys) <= set(quality)

@@ -1,130 +1,289 @@
-"""Entry script verify: faults that Snakemake does not notice, against records as it writes them."""
+"""Verify: every kind of fault is found by content, whatever the dates; nothing else is."""
 
-import base64
 import json
 import os
-from itertools import pairwise
+import shutil
 
 import numpy as np
 import pytest
 
 import verify
-from foldshell.engine.integrity import find_dependents, keep_current, read_records
-from foldshell.files.edits import record_written
-from foldshell.files.whole import hash_file, write_arrays, write_json
+from foldshell.engine.integrity import find_dependents, read_home
+from foldshell.files.job_record import JobRecord, read_records, state_of, write_record
+from foldshell.files.manifest import make_manifest, read_manifest, write_manifest
+from foldshell.files.whole import hash_data, hash_file, write_arrays, write_json
+from foldshell.workbook.panels import ThicknessTable, make_panel_grid
+from foldshell.workbook.write_thickness import write_thickness
+from workbook_cases import edit_with_openpyxl
 
-HOME = "results/a/sizing"
-ENDED = 1_700_000_000.0
+DATE = 1_700_000_000
+VERSIONS = {"foldshell": "1", "commit": "abc"}
 
 
-def _record(root, path, rule, *inputs):
-    """Write a record as Snakemake 9 does: long names are split into folders that begin with @."""
-    sums = {name: f"sha256:{hash_file(root / name)}" for name in inputs}
-    data = {
-        "rule": rule,
-        "endtime": ENDED,
-        "input": list(inputs),
-        "input_checksums": sums,
-    }
-    name = base64.urlsafe_b64encode(path.encode()).decode()
-    folder = root / ".snakemake/metadata"
-    if len(name) > 60:
-        folder, name = folder / f"@{name[:60]}", name[60:]
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / name).write_text(json.dumps(data))
-    os.utime(root / path, (ENDED, ENDED))
+def write_book(home, number, thickness):
+    path = home / f"sizing/{number:02d}/thickness.xlsx"
+    path.parent.mkdir(parents=True, exist_ok=True)
+    table = ThicknessTable(make_panel_grid(3, 4), np.full(6, thickness))
+    write_thickness(path, table, {"design": home.name, "iteration": number}, 0.01, 1.0)
+    return path
+
+
+def record(home, name, rule, outputs, inputs=()):
+    states = {path: state_of(home / path) for path in outputs}
+    sums = {path: hash_file(home / path) for path in inputs}
+    write_record(home, JobRecord(name, rule, {"design": home.name}, states, sums, {}, "p", "c"))
+
+
+def make_design(results, name, first):
+    """A loop of two iterations, its history and a page that was made of that."""
+    home = results / name
+    for number in (0, 1):
+        book = write_book(home, number, first - 0.01 * number)
+        place, last = f"sizing/{number:02d}", f"sizing/{number - 1:02d}"
+        before = [f"{last}/analysis.json"] if number else []
+        record(home, f"resize-{number:02d}", "resize", [f"{place}/thickness.xlsx"], before)
+        write_arrays(
+            book.with_name("analysis.npz"), {"thickness": np.full(6, first - 0.01 * number)}
+        )
+        write_json(book.with_name("analysis.json"), {"iteration": number, "volume_m3": 10 * first})
+        made = [f"{place}/analysis.json", f"{place}/analysis.npz"]
+        record(home, f"analyse-{number:02d}", "analyse", made, [f"{place}/thickness.xlsx"])
+    write_json(home / "history.json", {"rows": 2, "name": name})
+    record(
+        home,
+        "size",
+        "size",
+        ["history.json"],
+        ["sizing/00/analysis.json", "sizing/01/analysis.json"],
+    )
+    (home / "page.html").write_text(f"<p>{name}</p>")
+    record(home, "page", "page", ["page.html"], ["history.json"])
+    write_manifest(
+        home / "manifest.json", make_manifest(name, home, read_records(home), "r", VERSIONS)
+    )
 
 
 @pytest.fixture
-def study(tmp_path):
-    """A loop of two iterations: workbook, analysis, workbook, analysis, history; and a left-over
-    record of a third iteration that is gone."""
-    names = [f"{HOME}/{n:02d}/{kind}" for n in (0, 1, 2) for kind in ("thickness.xlsx", "a.json")]
-    for number, name in enumerate(names):
-        write_json(tmp_path / name, {"number": number})
-    book = tmp_path / names[0]
-    write_arrays(book.with_suffix(".npz"), {"x": np.ones(3)})
-    book.with_suffix(".npz").replace(book)  # a zip archive, as a workbook is
-    for name in (names[2], names[4]):
-        (tmp_path / name).write_bytes(book.read_bytes())
-    _record(tmp_path, names[0], "start")
-    for before, after in pairwise(names):
-        _record(tmp_path, after, "resize" if after.endswith("xlsx") else "analyse", before)
-    write_json(tmp_path / f"{HOME}/history.json", {"rows": 2})
-    _record(tmp_path, f"{HOME}/history.json", "size", names[1], names[3])
-    for name in names[4:]:
-        (tmp_path / name).unlink()
-    return tmp_path
+def results(tmp_path):
+    """Two designs of one study."""
+    folder = tmp_path / "results"
+    for name, first in (("a", 0.2), ("b", 0.3)):
+        make_design(folder, name, first)
+    home = folder / "studies/t"
+    write_json(home / "summary.json", {"rows": 2})
+    record(home, "summary", "summary", ["summary.json"])
+    members = {
+        f"../../{name}/manifest.json": hash_file(folder / name / "manifest.json") for name in "ab"
+    }
+    manifest = make_manifest("t", home, read_records(home), "r", VERSIONS, members)
+    write_manifest(home / "manifest.json", manifest)
+    return folder
 
 
-def test_untouched_results_have_no_fault(study):
-    assert len(read_records(study / ".snakemake/metadata")) == 7
-    assert verify.main(study) == []
+def lines(results):
+    said, code = verify.main(results)
+    return [line.removeprefix(f"{results}/") for line in said], code
 
 
-def test_deleted_intermediate_is_found(study):
-    """Snakemake says 'nothing to be done' while what was made of it stands."""
-    (study / f"{HOME}/00/a.json").unlink()
-    lines = verify.main(study)
-    assert lines[0] == f"{HOME}/00/a.json: deleted: made by rule analyse"
-    assert "--repair" in lines[-1]
+def swap(one, other):
+    first = one.read_bytes()
+    one.write_bytes(other.read_bytes())
+    other.write_bytes(first)
 
 
-def test_changed_file_is_found_by_its_hash_even_with_its_old_time(study):
-    path = study / f"{HOME}/00/a.json"
-    path.write_text(path.read_text().replace("1", "2"))
-    os.utime(path, (ENDED, ENDED))
-    line, _ = verify.main(study)
-    assert line.startswith(f"{HOME}/00/a.json: changed: since rule")
+def flip_bit(path):
+    data = bytearray(path.read_bytes())
+    data[len(data) // 2] ^= 1
+    path.write_bytes(data)
 
 
-def test_last_file_of_the_chain_is_found_by_its_time_or_its_end(study):
-    path = study / f"{HOME}/history.json"
-    os.utime(path, (ENDED + 60, ENDED + 60))
-    assert f"{HOME}/history.json: changed: 60 s after its rule size ended" in verify.main(study)
-    path.write_text(path.read_text()[:-5])
-    os.utime(path, (ENDED, ENDED))
-    assert f"{HOME}/history.json: damaged: cannot be read as .json" in verify.main(study)
+def change_digit(path):
+    text = path.read_text()
+    path.write_text(text.replace("2", "3", 1))
 
 
-@pytest.mark.parametrize("size", [0, 40])
-def test_cut_off_workbook_is_found(study, size):
-    os.truncate(study / f"{HOME}/01/thickness.xlsx", size)
-    assert verify.main(study)[0].startswith(f"{HOME}/01/thickness.xlsx: damaged")
+def replace_by_link(path):
+    shutil.copy(path, path.with_name("elsewhere"))
+    path.unlink()
+    path.symlink_to("elsewhere")
 
 
-def test_edited_workbook_is_named_but_never_removed(study):
-    book = study / f"{HOME}/01/thickness.xlsx"
-    record_written(book, book.with_name("written.json"))
-    write_arrays(study / "edited.npz", {"x": np.zeros(4)})
-    book.write_bytes((study / "edited.npz").read_bytes())
-    lines = verify.main(study, repair=True)
-    assert lines == [f"{HOME}/01/thickness.xlsx: edited: the next run redoes what follows it"]
-    assert book.exists()
+def replace_by_folder(path):
+    path.unlink()
+    path.mkdir()
 
 
-def test_repair_removes_what_was_made_from_a_fault_and_nothing_else(study):
-    (study / f"{HOME}/01/thickness.xlsx").unlink()
-    verify.main(study, repair=True)
-    left = sorted(str(p.relative_to(study / HOME)) for p in (study / HOME).rglob("*.*"))
-    assert left == ["00/a.json", "00/thickness.xlsx"]
+def forge_manifest(path):
+    """Change a manifest and its own hash: the study's manifest still tells."""
+    data = json.loads(path.read_text())
+    data.pop("content_sha256")
+    data["made_by"]["commit"] = "def"
+    path.write_text(json.dumps({**data, "content_sha256": hash_data(data)}))
 
 
-def test_repair_takes_no_other_file_for_an_edited_workbook(study):
-    """The record beside a workbook holds the hash of the workbook alone."""
-    book = study / f"{HOME}/01/thickness.xlsx"
-    record_written(book, book.with_name("written.json"))
-    (study / f"{HOME}/00/a.json").unlink()
-    verify.main(study, repair=True)
-    assert not list(study.rglob("edited-*"))
+def other_version(path):
+    data = json.loads(path.read_text())
+    path.write_text(json.dumps(data | {"format": "foldshell-manifest 99"}))
 
 
-def test_left_over_iterations_do_not_count(study):
-    records = read_records(study / ".snakemake/metadata")
-    paths = {record.path for record in keep_current(records, "results")}
-    assert f"{HOME}/02/a.json" not in paths and f"{HOME}/01/a.json" in paths
-    assert find_dependents([], records) == []
+ANALYSIS, BOOK = "a/sizing/00/analysis.json", "a/sizing/00/thickness.xlsx"
+ARRAYS, MANIFEST, RECORD = "a/sizing/01/analysis.npz", "a/manifest.json", "a/jobs/size.json"
+FAULTS = {
+    "cut": (lambda r: os.truncate(r / ANALYSIS, 5), ANALYSIS, "damaged"),
+    "emptied": (lambda r: os.truncate(r / "a/page.html", 0), "a/page.html", "damaged: empty"),
+    "bit flip": (lambda r: flip_bit(r / ARRAYS), ARRAYS, "damaged"),
+    "changed digit": (lambda r: change_digit(r / "a/history.json"), "a/history.json", "damaged"),
+    "swapped between designs": (
+        lambda r: swap(r / "a/history.json", r / "b/history.json"), "b/history.json", "damaged"),
+    "swapped between iterations": (
+        lambda r: swap(r / ANALYSIS, r / "a/sizing/01/analysis.json"), ANALYSIS, "damaged"),
+    "workbooks swapped between iterations": (
+        lambda r: swap(r / BOOK, r / "a/sizing/01/thickness.xlsx"), BOOK,
+        "damaged: it is that of a, iteration 1"),
+    "workbooks swapped between designs": (
+        lambda r: swap(r / BOOK, r / "b/sizing/00/thickness.xlsx"), BOOK,
+        "damaged: it is that of b, iteration 0"),
+    "removed": (lambda r: (r / ANALYSIS).unlink(), ANALYSIS, "missing: made by job analyse-00"),
+    "left over": (
+        lambda r: shutil.copytree((r / ARRAYS).parent, r / "a/sizing/02"),
+        "a/sizing/02", "left over"),
+    "folder for a file": (lambda r: replace_by_folder(r / ANALYSIS), ANALYSIS, "damaged"),
+    "link for a file": (lambda r: replace_by_link(r / ANALYSIS), ANALYSIS, "damaged: a link"),
+    "record removed": (lambda r: (r / RECORD).unlink(), RECORD, "missing"),
+    "record changed": (lambda r: change_digit(r / RECORD), RECORD, "damaged"),
+    "manifest removed": (lambda r: (r / MANIFEST).unlink(), MANIFEST, "missing"),
+    "manifest edited": (lambda r: change_digit(r / MANIFEST), MANIFEST, "damaged"),
+    "manifest forged": (lambda r: forge_manifest(r / MANIFEST), MANIFEST, "damaged"),
+    "manifest of another version": (
+        lambda r: other_version(r / MANIFEST), MANIFEST, "made by another version"),
+    "workbook cut": (lambda r: os.truncate(r / BOOK, 900), BOOK, "damaged"),
+    "workbook emptied": (lambda r: os.truncate(r / BOOK, 0), BOOK, "damaged: empty"),
+}  # fmt: skip
 
 
-def test_folder_without_records_is_said(tmp_path):
-    assert "no records" in verify.main(tmp_path)[0]
+@pytest.mark.parametrize("dated_back", [True, False])
+@pytest.mark.parametrize("kind", FAULTS)
+def test_every_kind_of_fault_is_found_whatever_the_dates(results, kind, dated_back):
+    spoil, path, words = FAULTS[kind]
+    spoil(results)
+    if dated_back:
+        for file in results.rglob("*"):
+            os.utime(file, (DATE, DATE), follow_symlinks=False)
+    said, code = lines(results)
+    assert code == 1
+    assert any(line.startswith(f"{path}: {words}") for line in said), said
+
+
+@pytest.mark.skipif(os.geteuid() == 0, reason="everything can be read by the superuser")
+def test_a_file_that_cannot_be_read_is_found(results):
+    (results / ANALYSIS).chmod(0)
+    assert lines(results)[0][0].startswith(f"{ANALYSIS}: damaged: cannot be read")
+
+
+def untouched(results, tmp_path):
+    return results
+
+
+def copied(results, tmp_path):
+    return shutil.copytree(results, tmp_path / "copy", copy_function=shutil.copyfile)
+
+
+def moved(results, tmp_path):
+    return results.rename(tmp_path / "moved")
+
+
+def touched(results, tmp_path):
+    for file in results.rglob("*"):
+        os.utime(file)
+    return results
+
+
+def dated_back(results, tmp_path):
+    for file in results.rglob("*"):
+        os.utime(file, (DATE, DATE))
+    return results
+
+
+@pytest.mark.parametrize("handle", [untouched, copied, moved, touched, dated_back])
+def test_good_results_raise_no_alarm(results, tmp_path, handle):
+    assert verify.main(handle(results, tmp_path)) == (["every file is as it was made"], 0)
+
+
+def set_thickness(book):
+    book["thickness"]["D5"] = 0.25
+
+
+def test_a_workbook_with_other_thicknesses_is_edited_and_never_removed(results):
+    edit_with_openpyxl(results / BOOK, set_thickness)
+    kept = (results / BOOK).read_bytes()
+    said, code = verify.main(results, mend=True)
+    assert said == [f"{results / BOOK}: edited by hand: the next run redoes what follows it"]
+    assert code == 1 and (results / BOOK).read_bytes() == kept
+
+
+def test_an_edit_that_the_analysis_has_read_is_said_and_is_no_fault(results):
+    home = results / "a"
+    edit_with_openpyxl(results / BOOK, set_thickness)
+    made = ["sizing/00/analysis.json", "sizing/00/analysis.npz"]
+    record(home, "analyse-00", "analyse", made, ["sizing/00/thickness.xlsx"])
+    (home / "manifest.json").unlink()
+    shutil.rmtree(results / "studies")
+    said, code = lines(results)
+    assert said == [f"{BOOK}: edited by hand: as the analysis after it has read it"] and code == 0
+
+
+def test_a_workbook_saved_again_with_its_thicknesses_is_no_edit(results):
+    edit_with_openpyxl(results / BOOK, lambda book: None)
+    assert lines(results)[0][0].startswith(f"{BOOK}: damaged: saved again by another program")
+
+
+def test_repair_takes_away_what_the_job_made_and_what_was_made_of_it(results):
+    os.truncate(results / "a/sizing/01/analysis.npz", 30)
+    said, _ = verify.main(results, mend=True)
+    assert "taken away" in said[-1]
+    left = {str(p.relative_to(results / "a")) for p in (results / "a").rglob("*.*") if p.is_file()}
+    gone = {"history.json", "page.html", "sizing/01/analysis.json", "sizing/01/analysis.npz"}
+    assert (
+        not left & gone and "sizing/01/thickness.xlsx" in left and "sizing/00/analysis.json" in left
+    )
+    assert not {"jobs/analyse-01.json", "jobs/size.json", "manifest.json"} & left
+    (copy,) = (results / "a/replaced").iterdir()
+    assert copy.name.startswith("sizing-01-analysis.npz-") and copy.stat().st_size == 30
+    assert (results / "b/history.json").exists()
+
+
+def test_repair_removes_a_link_and_not_what_it_leads_to(results, tmp_path):
+    target = tmp_path / "mine.json"
+    target.write_text("mine")
+    (results / ANALYSIS).unlink()
+    (results / ANALYSIS).symlink_to(target)
+    verify.main(results, mend=True)
+    assert target.read_text() == "mine" and not os.path.lexists(results / ANALYSIS)
+
+
+def test_results_of_a_run_that_has_not_ended_are_checked_by_the_records_alone(results):
+    (results / "a/manifest.json").unlink()
+    shutil.rmtree(results / "studies")
+    assert lines(results) == (["every file is as it was made"], 0)
+    flip_bit(results / "a/page.html")
+    assert lines(results)[0][0].startswith("a/page.html: damaged")
+
+
+def test_dependents_follow_inputs_and_name_each_job_once(results):
+    home = read_home(results / "a")
+    assert find_dependents(home, ["sizing/00/thickness.xlsx"]) == [
+        "analyse-00", "analyse-01", "page", "resize-00", "resize-01", "size",
+    ]  # fmt: skip
+    assert find_dependents(home, ["page.html"]) == ["page"] and find_dependents(home, []) == []
+
+
+def test_a_manifest_names_what_decided_and_who_made_it(results):
+    manifest = read_manifest(results / "a/manifest.json")
+    assert manifest.made_by == VERSIONS and manifest.result_sha256 == "r"
+    assert manifest.job_of["page.html"] == "page"
+    assert manifest.files["page.html"].bytes == len("<p>a</p>")
+
+
+def test_a_folder_without_records_is_said(tmp_path):
+    said, code = verify.main(tmp_path)
+    assert code == 1 and "nothing was made here" in said[0]

@@ -9,22 +9,35 @@ some forty files a job and a thousand jobs.
 import ast
 import functools
 import hashlib
+from collections.abc import Iterable
 from pathlib import Path
 
-from foldshell.files.whole import write_text_if_changed
+from foldshell.files.whole import hash_file, write_text_if_changed
 
 
 def write_library_list(script: str | Path, root: str | Path, folder: str | Path) -> str:
-    """Write `<folder>/<script>.sha256`, a line a library file; return its path.
+    """Write `<folder>/<script>-<hash>.sha256`, one line per library file; return its path.
 
-    A list that is right already is not touched, so only a changed library makes it newer.
+    The name tells the content, so that a changed library is another input, whatever its date.
     """
     lines = [
         f"{_hash(path)}  {path.relative_to(root)}"
         for path in map(Path, library_files(script, root))
     ]
-    target = Path(folder) / f"{Path(script).stem}.sha256"
-    write_text_if_changed(target, "".join(f"{line}\n" for line in lines))
+    return _write_list(lines, folder, Path(script).stem)
+
+
+def write_content_list(paths: Iterable[str | Path], folder: str | Path) -> str:
+    """Write `<folder>/content-<hash>.sha256`, one line per file; return its path."""
+    lines = [f"{hash_file(path)}  {path}" for path in paths]
+    return _write_list(lines, folder, "content")
+
+
+def _write_list(lines: Iterable[str], folder: str | Path, name: str) -> str:
+    text = "".join(f"{line}\n" for line in lines)
+    digest = hashlib.sha256(text.encode()).hexdigest()[:12]
+    target = Path(folder) / f"{name}-{digest}.sha256"
+    write_text_if_changed(target, text)
     return str(target)
 
 

@@ -7,8 +7,10 @@ from typing import Any
 
 from foldshell.files.errors import user_errors
 from foldshell.files.job_record import JobRecord, hash_inputs, list_outputs, state_of, write_record
-from foldshell.files.whole import hash_data, hash_file
+from foldshell.files.whole import SECONDS, hash_data, hash_file
 
+LISTS = ".snakemake/"
+"""Where lists of hashes stand that Snakemake takes for inputs."""
 CODE = "library"
 """The name of the input that lists the library files of a rule with their hashes."""
 
@@ -34,12 +36,16 @@ def describe_job(task: Any, inputs: Mapping[str, str]) -> JobRecord:
     code = str(task.input.get(CODE, ""))
     own, external = {}, {}
     for path, digest in inputs.items():
-        if path != code:
+        if not path.startswith(LISTS):
             inside = Path(path).is_relative_to(home)
             (own if inside else external)[_relative(path, home) if inside else path] = digest
-    outputs = {_relative(path, home): state_of(path) for path in list_outputs(task.output)}
+    outputs = {
+        _relative(path, home): state_of(path)
+        for path in list_outputs(task.output)
+        if Path(path).name != SECONDS
+    }
     return JobRecord(
-        name=name_job(task.rule, wildcards),
+        name=name_job(task.rule, wildcards, home),
         rule=task.rule,
         wildcards=wildcards,
         outputs=outputs,
@@ -50,9 +56,9 @@ def describe_job(task: Any, inputs: Mapping[str, str]) -> JobRecord:
     )
 
 
-def name_job(rule: str, wildcards: Mapping[str, str]) -> str:
-    """Return the name of a job within its folder: the rule, and wildcards but design and tag."""
-    more = [value for key, value in wildcards.items() if key not in ("design", "tag")]
+def name_job(rule: str, wildcards: Mapping[str, str], home: Path) -> str:
+    """Return the name of a job within its folder: the rule, and wildcards but the folder's name."""
+    more = [value for value in wildcards.values() if value != home.name]
     return "-".join([rule, *more])
 
 

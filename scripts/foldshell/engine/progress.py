@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from foldshell.files.whole import read_json
+from foldshell.files.whole import SECONDS, read_json
 from foldshell.results.history import find_least_factor
 
 USUAL_ITERATIONS = 15
@@ -61,12 +61,19 @@ def _read_design(folder: Path, name: str) -> DesignProgress:
     while last is None or last["verdict"] == "continue":
         try:
             report = read_json(folder / f"sizing/{number:02d}/analysis.json")
-            seconds += float(report["seconds"])
+            seconds += _read_seconds(folder / f"sizing/{number:02d}" / SECONDS)
             last = {"iteration": number, "reason": "", **report, "verdict": report["verdict"]}
         except (OSError, ValueError, KeyError, TypeError):
             break
         number += 1
     return DesignProgress(name, number, last, seconds, size)
+
+
+def _read_seconds(path: Path) -> float:
+    try:
+        return float(read_json(path)["seconds"])
+    except (OSError, ValueError, KeyError, TypeError):
+        return 0.0
 
 
 def estimate_left(progress: Iterable[DesignProgress], cores: int) -> float | None:

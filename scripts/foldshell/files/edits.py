@@ -1,18 +1,30 @@
 """Workbooks that a person has changed: noticed by their hash, and kept aside."""
 
+import os
 import shutil
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from foldshell.files.whole import atomic_path, hash_file, read_json, write_json
 
 WORKBOOK = "thickness.xlsx"
+ANALYSIS = "analysis.json"
+NEWER_NS = 1_000_000_000
 RECORD = "written.json"
 """Beside each thickness.xlsx: the hash of the bytes that the workflow wrote."""
 
 
-def record_written(workbook: str | Path, record: str | Path) -> None:
-    """Write down the hash of a workbook that was just made."""
-    write_json(record, {"sha256": hash_file(workbook)})
+@contextmanager
+def recorded_workbook(workbook: str | Path, record: str | Path) -> Iterator[Path]:
+    """Yield a temporary name for a workbook; write down its hash, then rename it into place.
+
+    The workbook comes last, since the next analysis waits for it.
+    """
+    with atomic_path(workbook) as temporary:
+        yield temporary
+        write_json(record, {"sha256": hash_file(temporary)})
 
 
 def is_edited(workbook: str | Path) -> bool:
@@ -43,7 +55,31 @@ def keep_edited(workbook: str | Path) -> bool:
     return True
 
 
+def renew_if_unread(workbook: str | Path) -> bool:
+    """Make a workbook newer than its analysis where that has read other bytes; return whether.
+
+    Snakemake looks at the content of an input only where it is newer than the output. A workbook
+    whose date was set back, or that was put back by a version control, is not.
+    """
+    workbook = Path(workbook)
+    analysis = workbook.with_name(ANALYSIS)
+    try:
+        read = read_json(analysis)["workbook_sha256"]
+        if hash_file(workbook) == read:
+            return False
+        now = max(time.time_ns(), analysis.stat().st_mtime_ns + NEWER_NS)
+        os.utime(workbook, ns=(now, now))
+    except (OSError, ValueError, KeyError, TypeError):
+        return False
+    return True
+
+
 def keep_all_edited(results: str | Path) -> list[Path]:
-    """Keep every edited thickness workbook under a results folder; return their paths."""
-    found = sorted(Path(results).glob("*/sizing/[0-9][0-9]/thickness.xlsx"))
+    """Keep every edited thickness workbook under a results folder; return their paths.
+
+    Those that the analysis after them has not read are made newer than it.
+    """
+    found = sorted(Path(results).glob("**/sizing/[0-9][0-9]/thickness.xlsx"))
+    for path in found:
+        renew_if_unread(path)
     return [path for path in found if keep_edited(path)]

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import numpy as np
 
-from foldshell.files.whole import atomic_path, write_arrays, write_json
+from foldshell.files.whole import atomic_path, write_arrays, write_timed_json
 from foldshell.folding.fold import FoldResult
 from foldshell.folding.quality import measure_planarity, measure_strain
 from foldshell.pattern.sheet import Sheet
@@ -24,7 +24,7 @@ def describe_quality(result: FoldResult) -> dict[str, float | int | str]:
 
 def write_quality(path: str | Path, result: FoldResult) -> None:
     """Write quality.json."""
-    write_json(path, describe_quality(result))
+    write_timed_json(path, describe_quality(result))
 
 
 def write_folded(path: str | Path, sheet: Sheet, result: FoldResult) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 
 from foldshell.files.edits import keep_edited
 from foldshell.files.errors import InputError
+from foldshell.files.job_record import FOLDER
 from foldshell.files.whole import TEMPORARY_PREFIX, read_arrays, read_json
 from foldshell.results.history import make_history
 
@@ -80,6 +81,8 @@ def remove_superseded(sizing: Path, count: int) -> list[int]:
         for copy in sorted(folder.glob("edited-*.xlsx")):
             (sizing / SUPERSEDED).mkdir(exist_ok=True)
             copy.replace(sizing / SUPERSEDED / f"{folder.name}-{copy.name}")
+        for record in (sizing.parent / FOLDER).glob(f"*-{folder.name}.json"):
+            record.unlink()
         shutil.rmtree(folder)
         removed.append(int(folder.name))
     return removed

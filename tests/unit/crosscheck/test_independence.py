@@ -20,6 +20,16 @@ def find_imports(path: Path) -> set[str]:
     return found
 
 
+def allowed_in_entry(path: Path) -> set[str]:
+    """Return the library where an entry script imports nothing of it but the record of its job, in
+    the block that Snakemake runs: that notes hashes of files and hands no number on."""
+    text = path.read_text(encoding="utf-8")
+    head, _, block = text.partition('if "snakemake" in globals():')
+    lines = [line.strip() for line in block.splitlines() if "foldshell" in line]
+    only = all(line.startswith("from foldshell.engine.job import run_job") for line in lines)
+    return {"foldshell"} if lines and only and "foldshell" not in head else set()
+
+
 def test_cross_check_imports_nothing_of_the_library():
     import sys
 
@@ -27,7 +37,8 @@ def test_cross_check_imports_nothing_of_the_library():
     files = [*entries, *sorted((SCRIPTS / "crosscheck").rglob("*.py"))]
     assert len(files) > 10
     for path in files:
-        foreign = find_imports(path) - ALLOWED - set(sys.stdlib_module_names)
+        foreign = find_imports(path) - allowed_in_entry(path) - ALLOWED
+        foreign -= set(sys.stdlib_module_names)
         assert not foreign, f"{path.name} imports {foreign}"
 
 

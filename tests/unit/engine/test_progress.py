@@ -4,7 +4,7 @@ import pytest
 
 import progress as script
 from foldshell.engine.progress import describe_iteration, estimate_left, read_progress
-from foldshell.files.whole import write_json
+from foldshell.files.whole import write_timed_json
 
 
 def report(number, verdict="continue", **changes):
@@ -18,7 +18,7 @@ def report(number, verdict="continue", **changes):
 
 def write(folder, design, *reports):
     for item in reports:
-        write_json(folder / design / f"sizing/{item['iteration']:02d}/analysis.json", item)
+        write_timed_json(folder / design / f"sizing/{item['iteration']:02d}/analysis.json", item)
 
 
 def test_line_of_an_iteration():

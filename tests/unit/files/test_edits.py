@@ -1,16 +1,23 @@
 """An edited workbook is noticed by its bytes and survives, whatever replaces it."""
 
+import os
+
 import pytest
 
-from foldshell.files.edits import RECORD, is_edited, keep_all_edited, keep_edited, record_written
+from foldshell.files.edits import RECORD, is_edited, keep_all_edited, keep_edited, recorded_workbook
+from foldshell.files.whole import hash_file, write_json
 from workbook_cases import edit_with_openpyxl, write_case
+
+
+def write_recorded(path):
+    with recorded_workbook(path, path.parent / RECORD) as temporary:
+        write_case(temporary)
+    return path
 
 
 @pytest.fixture
 def path(tmp_path):
-    path = write_case(tmp_path / "a/sizing/03/thickness.xlsx")
-    record_written(path, path.parent / RECORD)
-    return path
+    return write_recorded(tmp_path / "a/sizing/03/thickness.xlsx")
 
 
 def set_thickness(book):
@@ -48,8 +55,7 @@ def test_each_of_several_edits_is_kept(path):
 
 
 def test_all_designs_are_searched(path, tmp_path):
-    other = write_case(tmp_path / "b/sizing/00/thickness.xlsx")
-    record_written(other, other.parent / RECORD)
+    write_recorded(tmp_path / "b/sizing/00/thickness.xlsx")
     edit_with_openpyxl(path, set_thickness)
     assert keep_all_edited(tmp_path) == [path]
 
@@ -65,3 +71,35 @@ def test_without_a_record_nothing_is_claimed(path, record):
 def test_missing_workbook(path):
     path.unlink()
     assert not is_edited(path)
+
+
+def analysed(path):
+    write_json(path.with_name("analysis.json"), {"workbook_sha256": hash_file(path)})
+    return path.with_name("analysis.json").stat().st_mtime_ns
+
+
+def test_an_edit_dated_back_is_made_newer_than_the_analysis_that_did_not_read_it(path, tmp_path):
+    """Snakemake looks at inputs that are newer than outputs only; content decides here."""
+    then = analysed(path)
+    edit_with_openpyxl(path, set_thickness)
+    os.utime(path, ns=(then - 10**14, then - 10**14))
+    assert keep_all_edited(tmp_path) == [path]
+    assert path.stat().st_mtime_ns > then
+
+
+def test_a_workbook_put_back_is_made_newer_than_the_analysis_of_the_edit(path, tmp_path):
+    """It is no edit any more, but the analysis read another one."""
+    original = path.read_bytes()
+    edit_with_openpyxl(path, set_thickness)
+    then = analysed(path)
+    path.write_bytes(original)
+    os.utime(path, ns=(then - 10**14, then - 10**14))
+    assert keep_all_edited(tmp_path) == []
+    assert path.stat().st_mtime_ns > then
+
+
+def test_a_workbook_that_was_read_keeps_its_date(path, tmp_path):
+    analysed(path)
+    os.utime(path, ns=(10**18, 10**18))
+    keep_all_edited(tmp_path)
+    assert path.stat().st_mtime_ns == 10**18

@@ -1,0 +1,76 @@
+"""Rule manifest: what a design is made of, every file with its hash, and what decided it."""
+
+import platform
+import subprocess
+from collections.abc import Sequence
+from importlib.metadata import PackageNotFoundError, version
+from pathlib import Path
+
+from foldshell.files.errors import user_errors
+from foldshell.files.job_record import hash_result, read_records
+from foldshell.files.manifest import make_manifest, write_manifest
+from foldshell.files.whole import hash_file
+
+PACKAGES = ("foldshell", "numpy", "scipy", "cvxopt", "snakemake", "openpyxl", "XlsxWriter")
+
+
+def main(
+    path: str | Path,
+    *,
+    title: str,
+    deciding_rules: Sequence[str],
+    code: str | Path = ".",
+    members: Sequence[str | Path] = (),
+) -> None:
+    """Write the manifest of the folder that `path` lies in, from the records of its jobs.
+
+    `members` are the manifests of a study's designs; `code` is the folder of the workflow.
+    """
+    home = Path(path).parent
+    records = read_records(home)
+    write_manifest(
+        path,
+        make_manifest(
+            title,
+            home,
+            records,
+            hash_result(records, deciding_rules),
+            find_versions(code),
+            {_relative(Path(member), home): hash_file(member) for member in members},
+        ),
+    )
+
+
+def find_versions(code: str | Path) -> dict[str, str]:
+    """Return versions of Python, the program and its packages, and the commit of the workflow."""
+    found = {"python": platform.python_version()}
+    for name in PACKAGES:
+        try:
+            found[name] = version(name)
+        except PackageNotFoundError:
+            continue
+    return found | {"commit": find_commit(code)}
+
+
+def find_commit(code: str | Path) -> str:
+    """Return the commit of a checkout, with `-dirty` where files differ from it; else unknown."""
+    words = ["git", "-C", str(code), "describe", "--always", "--abbrev=40", "--dirty", "--match="]
+    try:
+        done = subprocess.run(words, capture_output=True, text=True, timeout=20)
+    except (OSError, subprocess.TimeoutExpired):
+        return "unknown"
+    return done.stdout.strip() or "unknown"
+
+
+def _relative(path: Path, home: Path) -> str:
+    up = Path(*[".."] * len(home.relative_to(path.parents[1]).parts))
+    return (up / path.relative_to(path.parents[1])).as_posix()
+
+
+if "snakemake" in globals():
+    with user_errors():
+        main(
+            snakemake.output.manifest,  # noqa: F821
+            title=snakemake.wildcards.design,  # noqa: F821
+            **snakemake.params,  # noqa: F821
+        )
