@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from foldshell.files.errors import user_errors
+from foldshell.engine.job import run_job
 from foldshell.records.schema import write_schemas
 
 
@@ -14,5 +14,5 @@ def main(paths: list[str]) -> None:
 
 
 if "snakemake" in globals():
-    with user_errors():
+    with run_job(snakemake):  # noqa: F821
         main(list(snakemake.output))  # noqa: F821
