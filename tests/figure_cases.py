@@ -24,8 +24,8 @@ def sheet_arrays(folded=True):
         "vertices": vertices,
         "quads": grid.quads,
         "facets": grid.facets,
-        "zigzag": grid.zigzag,
-        "strip": grid.strip,
+        "zigzag": grid.zigzag_index,
+        "strip": grid.strip_index,
         "planarity": measure_planarity(vertices, grid.quads),
         "strain": np.linspace(0, 0.02, len(grid.facets)),
     }

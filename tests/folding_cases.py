@@ -15,9 +15,9 @@ SPAN_HEIGHTS = ((28, 10), (13, 5), (5, 2), (28, 28), (28, 6))
 DENSITIES = ((30, 16), (50, 16), (15, 16), (30, 32), (8, 32))
 
 
-def skewed_sheet(zigzags=5, strips=6, size=0.05):
+def skewed_sheet(zigzag_count=5, strip_count=6, size=0.05):
     """A small Miura sheet and a disturbed, rotated copy of its rest state."""
-    sheet = make_miura_sheet(Miura(0.9, 0.7, math.radians(63), zigzags, strips), 0)
+    sheet = make_miura_sheet(Miura(0.9, 0.7, math.radians(63), zigzag_count, strip_count), 0)
     rng = np.random.default_rng(7)
     turn, _ = np.linalg.qr(rng.normal(size=(3, 3)))
     turn *= np.sign(np.linalg.det(turn))

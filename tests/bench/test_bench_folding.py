@@ -47,7 +47,7 @@ def _time(solver, sheet, target, settings=None, mode="paper"):
         best = min(best, (cpu, wall)) if best else (cpu, wall)
         if wall > 2:
             break
-    points = shape.vertices[sheet.grid.zigzag % 2 == 0]
+    points = shape.vertices[sheet.grid.zigzag_index % 2 == 0]
     rms = root_mean_square(measure_distances(points, target)) / target.span
     return {
         "task": "exact" if mode == "exact" else "fold",

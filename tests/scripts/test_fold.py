@@ -35,7 +35,7 @@ def test_files_keep_the_contract(tmp_path, kind):
     if kind == "flat":
         above = np.array([0, 0, 1.0])
     assert ((normals * above).sum(axis=1) > 0).all()
-    for p in (0, 20, 41):  # rows 2p and 2p + 1 are panel p, which is i (strips - 1) + j
+    for p in (0, 20, 41):  # rows 2p and 2p + 1 are panel p, which is i (strip_count - 1) + j
         assert set(data["facets"][2 * p : 2 * p + 2].ravel()) == set(data["quads"][p])
         first = data["quads"][p, 0]
         assert p == data["zigzag"][first] * 7 + data["strip"][first]

@@ -33,8 +33,8 @@ patterns = st.builds(
     side_a=st.floats(0.2, 5.0),
     side_b=st.floats(0.2, 5.0),
     sector_angle=st.floats(math.radians(15), math.radians(85)),
-    zigzags=st.integers(3, 8),
-    strips=st.integers(3, 8),
+    zigzag_count=st.integers(3, 8),
+    strip_count=st.integers(3, 8),
 )
 angles = st.floats(0.0, math.pi / 2)
 
@@ -43,7 +43,7 @@ angles = st.floats(0.0, math.pi / 2)
 @given(patterns, angles)
 def test_rules_agree_with_closed_form(pattern, angle):
     """1e-12 of the sheet's size, from flat to flat-folded: round-off of sums of 40 terms."""
-    size = max(pattern.zigzags * pattern.side_a, pattern.strips * pattern.side_b, 1.0)
+    size = max(pattern.zigzag_count * pattern.side_a, pattern.strip_count * pattern.side_b, 1.0)
     rules = fold_by_rules(pattern, travel_at(pattern, angle))
     assert np.abs(rules - folded_vertices(pattern, angle)).max() <= 1e-12 * size
 

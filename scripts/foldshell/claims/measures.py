@@ -19,21 +19,21 @@ SCALARS = (
 class Layout:
     """Counts of polylines of a design, and which edges stand on supports: all, zigzag or strip."""
 
-    zigzag: int
-    strip: int
+    zigzag_count: int
+    strip_count: int
     support: str
 
     @property
     def panels(self) -> int:
         """Panels of the sheet; those of edge beams follow them."""
-        return (self.zigzag - 1) * (self.strip - 1)
+        return (self.zigzag_count - 1) * (self.strip_count - 1)
 
     @property
     def free_edge_panels(self) -> np.ndarray:
         """True for panels in the row along an edge without supports, (P,)."""
-        row, column = np.indices((self.zigzag - 1, self.strip - 1))
-        on_zigzag = (row == 0) | (row == self.zigzag - 2)
-        on_strip = (column == 0) | (column == self.strip - 2)
+        row, column = np.indices((self.zigzag_count - 1, self.strip_count - 1))
+        on_zigzag = (row == 0) | (row == self.zigzag_count - 2)
+        on_strip = (column == 0) | (column == self.strip_count - 2)
         free = {"all": np.zeros_like(on_strip), "zigzag": on_strip, "strip": on_zigzag}
         return free[self.support].ravel()
 
@@ -127,10 +127,10 @@ def measure_edge_displacement(
     }
 
 
-def measure_depth(vertices: np.ndarray, zigzag: int, strip: int) -> float:
+def measure_depth(vertices: np.ndarray, zigzag_count: int, strip_count: int) -> float:
     """Return the mean depth of the folds (m): how far ridges stand off the middle of the two
     zig-zags beside them, along the same strip line; (V, 3) m in the order of zig-zags."""
-    point = vertices.reshape(zigzag, strip, 3)
+    point = vertices.reshape(zigzag_count, strip_count, 3)
     off = point[1:-1] - (point[:-2] + point[2:]) / 2
     return float(np.linalg.norm(off, axis=2).mean())
 

@@ -119,8 +119,8 @@ def draw_bar(picture: Image.Image, box: tuple[int, ...], caption: Caption, unit:
     scale, pen = caption.scale, ImageDraw.Draw(picture)
     end = right - round(150 * unit) if scale.limit is not None else right
     ramp = scale.colour(np.linspace(scale.low, scale.high, end - left))
-    strip = np.broadcast_to(ramp, (bottom - top, *ramp.shape))
-    picture.paste(Image.fromarray(np.ascontiguousarray(strip)), (left, top))
+    band = np.broadcast_to(ramp, (bottom - top, *ramp.shape))
+    picture.paste(Image.fromarray(np.ascontiguousarray(band)), (left, top))
     words = fit_font(caption.quantity, 32 * unit, right - left)
     pen.text((left, top - round(12 * unit)), caption.quantity, INK, words, anchor="ls")
     ticks = find_ticks(scale.low, scale.high)

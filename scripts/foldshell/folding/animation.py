@@ -22,7 +22,7 @@ def draw_states(states: Sequence[np.ndarray], grid: Grid) -> list[np.ndarray]:
 
     centred = [s - [*(0.5 * (s.min(axis=0) + s.max(axis=0)))[:2], s[:, 2].min()] for s in states]
     reach = max(np.abs(state).max() for state in centred)
-    parity = grid.strip[grid.quads[:, 0]] % 2
+    parity = grid.strip_index[grid.quads[:, 0]] % 2
     plotter = pyvista.Plotter(off_screen=True, window_size=list(SIZE))
     mesh = pyvista.PolyData.from_regular_faces(centred[0], grid.facets)
     mesh.cell_data["column"] = np.repeat(parity, 2)

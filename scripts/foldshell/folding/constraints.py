@@ -112,13 +112,15 @@ class Fairness:
 
 def find_chains(grid: Grid) -> np.ndarray:
     """Rows (m, 4) of vertices two polylines apart, along both families."""
-    number = np.arange(grid.zigzags * grid.strips).reshape(grid.zigzags, grid.strips)
-    along_strips = [number[k : grid.zigzags - 6 + k].ravel() for k in (0, 2, 4, 6)]
-    along_zigzags = [number[:, k : grid.strips - 6 + k].ravel() for k in (0, 2, 4, 6)]
+    number = np.arange(grid.zigzag_count * grid.strip_count).reshape(
+        grid.zigzag_count, grid.strip_count
+    )
+    along_strips = [number[k : grid.zigzag_count - 6 + k].ravel() for k in (0, 2, 4, 6)]
+    along_zigzags = [number[:, k : grid.strip_count - 6 + k].ravel() for k in (0, 2, 4, 6)]
     parts = []
-    if grid.zigzags > 6:
+    if grid.zigzag_count > 6:
         parts.append(np.stack(along_strips, axis=1))
-    if grid.strips > 6:
+    if grid.strip_count > 6:
         parts.append(np.stack(along_zigzags, axis=1))
     return np.vstack(parts) if parts else np.empty((0, 4), dtype=int)
 

@@ -72,7 +72,7 @@ def list_starts(sheet: Sheet, target: Target) -> Iterator[Sheet]:
             lengths = target.section_lengths()
             grid = sheet.grid
             yield make_miura_sheet(
-                size_miura(*lengths, math.radians(angle), grid.zigzags, grid.strips), 0
+                size_miura(*lengths, math.radians(angle), grid.zigzag_count, grid.strip_count), 0
             )
 
 

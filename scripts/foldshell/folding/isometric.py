@@ -114,7 +114,7 @@ def list_sheets(sheet: Sheet, target: Target, attract: str) -> Iterator[Sheet]:
     if sheet.kind != "miura":
         yield sheet
         return
-    counts = sheet.grid.zigzags, sheet.grid.strips
+    counts = sheet.grid.zigzag_count, sheet.grid.strip_count
     for steep in STEEP_SHEETS:
         yield _make_steep_sheet(target, counts, *steep)
     twist = measure_twist(target)
@@ -134,14 +134,14 @@ def measure_twist(target: Target) -> float:
     return float(target.evaluate_height(x, y) @ [1, 1, -1, -1]) / (2 * target.height)
 
 
-def sway_widths(strips: int, sway: float) -> np.ndarray:
-    """Widths (strips - 1,) over `side_b` that bend a zig-zag's course into an S.
+def sway_widths(strip_count: int, sway: float) -> np.ndarray:
+    """Widths (strip_count - 1,) over `side_b` that bend a zig-zag's course into an S.
 
     1 + e and 1 - e in turn, with e = sway (4 u2 - 1) / 3 for u from -1 to 1 along the zig-zag:
     its mean slope is e / tan(sector angle).
     """
-    place = np.linspace(-1.0, 1.0, strips - 1)
-    sign = np.where(np.arange(strips - 1) % 2 == 0, 1.0, -1.0)
+    place = np.linspace(-1.0, 1.0, strip_count - 1)
+    sign = np.where(np.arange(strip_count - 1) % 2 == 0, 1.0, -1.0)
     return 1 + sign * sway * (4 * place**2 - 1) / 3
 
 

@@ -34,13 +34,13 @@ def attracted_vertices(sheet: Sheet, attract: str) -> np.ndarray:
     """Rows of the lowest or the highest vertices: even or odd zig-zags."""
     if attract not in ("lowest", "highest"):
         raise ValueError(f"attract {attract!r}: must be lowest or highest")
-    return np.flatnonzero(sheet.grid.zigzag % 2 == (attract == "highest"))
+    return np.flatnonzero(sheet.grid.zigzag_index % 2 == (attract == "highest"))
 
 
 def reference_length(sheet: Sheet) -> float:
     """ell = sqrt(a b), from the mean edge lengths of both families [m]."""
     grid = sheet.grid
-    along_zigzag = grid.zigzags * (grid.strips - 1)
+    along_zigzag = grid.zigzag_count * (grid.strip_count - 1)
     lengths = edge_lengths(sheet.flat, grid.edges)
     side_b = lengths[:along_zigzag].mean()
     side_a = lengths[along_zigzag : grid.neutral.start].mean()
@@ -91,7 +91,10 @@ def hold_plan_edges(sheet: Sheet, span: float, reference: float, weight: float) 
     """Hold every border vertex near its edge of the square plan; corners near both."""
     grid = sheet.grid
     vertices, axes, positions = [], [], []
-    for axis, index, last in ((0, grid.strip, grid.strips - 1), (1, grid.zigzag, grid.zigzags - 1)):
+    for axis, index, last in (
+        (0, grid.strip_index, grid.strip_count - 1),
+        (1, grid.zigzag_index, grid.zigzag_count - 1),
+    ):
         for border, side in ((0, -1), (last, 1)):
             chosen = np.flatnonzero(index == border)
             vertices.append(chosen)

@@ -75,7 +75,7 @@ def count_mechanisms(vertices: np.ndarray, grid: Grid, rigid_panels: bool) -> Me
 def find_lifts(vertices: np.ndarray, grid: Grid) -> np.ndarray:
     """Orthonormal basis (N, k) of the heights that isometries give the lowest vertices."""
     motions = null_space(build_compatibility(vertices, grid) * np.ptp(vertices), rcond=1e-11)
-    lifts = motions[2::3][grid.zigzag % 2 == 0]
+    lifts = motions[2::3][grid.zigzag_index % 2 == 0]
     left, values, _ = np.linalg.svd(lifts, full_matrices=False)
     return left[:, values > RANK_TOLERANCE * values[0]]
 
@@ -141,7 +141,9 @@ def find_soft_modes(
     candidates = _name_shapes(pattern, fold_angle, vertices, grid)
     modes = []
     for value, vector in zip(values[6:], vectors.T[6:], strict=True):
-        heights = _without_plane(vector[2::3][grid.zigzag % 2 == 0], *_centred_plan(vertices, grid))
+        heights = _without_plane(
+            vector[2::3][grid.zigzag_index % 2 == 0], *_centred_plan(vertices, grid)
+        )
         agreement = {
             name: abs(heights @ shape) / (np.linalg.norm(heights) * np.linalg.norm(shape))
             for name, shape in candidates.items()
@@ -162,7 +164,7 @@ def _name_shapes(
 
 
 def _centred_plan(vertices: np.ndarray, grid: Grid) -> tuple[np.ndarray, np.ndarray]:
-    plan = vertices[grid.zigzag % 2 == 0][:, :2]
+    plan = vertices[grid.zigzag_index % 2 == 0][:, :2]
     x, y = (plan - plan.mean(axis=0)).T
     return x, y
 

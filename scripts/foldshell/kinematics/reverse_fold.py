@@ -93,4 +93,4 @@ def fold_by_rules(pattern: Miura, travel: Travel, fold: str = "M") -> np.ndarray
     unit = fold_unit(pattern, travel, fold)
     edge = unit["F"] - unit["E"]
     cell = Cell(edge[0], unit["I"][1], edge[1], unit["I"][2])
-    return place_cells(cell, pattern.zigzags, pattern.strips)
+    return place_cells(cell, pattern.zigzag_count, pattern.strip_count)

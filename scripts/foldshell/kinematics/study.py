@@ -32,13 +32,16 @@ def tabulate_ratios(sector_angle: float) -> list[dict[str, float]]:
     ]
 
 
-def study_sheet(sector_angle: float, zigzags: int, strips: int) -> dict[str, Any]:
+def study_sheet(sector_angle: float, zigzag_count: int, strip_count: int) -> dict[str, Any]:
     """Mechanisms, isometries and soft modes of one sheet in its rest state."""
-    pattern, rest = Miura(1.0, 1.0, sector_angle, zigzags, strips), rest_fold_angle(sector_angle)
+    pattern, rest = (
+        Miura(1.0, 1.0, sector_angle, zigzag_count, strip_count),
+        rest_fold_angle(sector_angle),
+    )
     vertices, grid = folded_vertices(pattern, rest), pattern.grid
     return {
-        "zigzag": zigzags,
-        "strip": strips,
+        "zigzag": zigzag_count,
+        "strip": strip_count,
         "rigid_panels": asdict(count_mechanisms(vertices, grid, True)),
         "bending_panels": asdict(count_mechanisms(vertices, grid, False)),
         "isometry_residual": measure_isometry(vertices, grid),

@@ -33,7 +33,9 @@ def corner_sectors(grid: Grid) -> np.ndarray:
 
     Counter-clockwise from the panel at (i, j), i.e. ahead along both counts.
     """
-    number = np.arange(grid.zigzags * grid.strips).reshape(grid.zigzags, grid.strips)
+    number = np.arange(grid.zigzag_count * grid.strip_count).reshape(
+        grid.zigzag_count, grid.strip_count
+    )
     centre = number[1:-1, 1:-1].ravel()
     around = [number[1:-1, 2:], number[2:, 1:-1], number[1:-1, :-2], number[:-2, 1:-1]]
     arms = [arm.ravel() for arm in around]

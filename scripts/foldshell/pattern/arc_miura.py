@@ -28,18 +28,20 @@ class ArcMiura:
     pitch: float
     angle_even: float
     angle_odd: float
-    zigzags: int
-    strips: int
+    zigzag_count: int
+    strip_count: int
 
     @property
     def grid(self) -> Grid:
         """Panels, facets, edges and fold directions, those of the standard pattern."""
-        return build_grid(self.zigzags, self.strips)
+        return build_grid(self.zigzag_count, self.strip_count)
 
 
 def flat_arc_vertices(pattern: ArcMiura) -> np.ndarray:
     """x = j w, y = i a + (j odd) w / tan g_i, z = 0: vertices (V, 3) [m]."""
-    row, column = np.divmod(np.arange(pattern.zigzags * pattern.strips), pattern.strips)
+    row, column = np.divmod(
+        np.arange(pattern.zigzag_count * pattern.strip_count), pattern.strip_count
+    )
     angle = np.where(row % 2 == 0, pattern.angle_even, pattern.angle_odd)
     y = row * pattern.side + (column % 2) * pattern.pitch / np.tan(angle)
     return np.column_stack([column * pattern.pitch, y, np.zeros(len(row))])
@@ -55,8 +57,8 @@ def fold_arc_vertices(pattern: ArcMiura, strip_fold: float) -> np.ndarray:
     folds = np.zeros(len(grid.edges))
     first = grid.edges[:, 0]
     sign = np.select([grid.assignments == "V", grid.assignments == "M"], [1.0, -1.0], 0.0)
-    angle = np.where(grid.zigzag[first] % 2 == 0, pattern.angle_even, pattern.angle_odd)
-    along_zigzag = np.arange(len(folds)) < grid.zigzags * (grid.strips - 1)
+    angle = np.where(grid.zigzag_index[first] % 2 == 0, pattern.angle_even, pattern.angle_odd)
+    along_zigzag = np.arange(len(folds)) < grid.zigzag_count * (grid.strip_count - 1)
     size = np.where(
         along_zigzag, 2 * np.arctan(math.tan(strip_fold / 2) / np.cos(angle)), strip_fold
     )
@@ -72,8 +74,8 @@ def size_arc_miura(
     lengths: tuple[float, float],
     turning: float,
     sector_angle: float,
-    zigzags: int,
-    strips: int,
+    zigzag_count: int,
+    strip_count: int,
 ) -> tuple[ArcMiura, float]:
     """Choose angles, side and pitch for section lengths [m] and a turning along strips [rad].
 
@@ -86,23 +88,25 @@ def size_arc_miura(
     def miss(half_change: float) -> float:
         """Turning (rad) beyond the wanted one."""
         odd, even = (strip_slope(sector_angle + side * half_change, fold) for side in (1.0, -1.0))
-        return (zigzags - 1) * (odd - even) - turning
+        return (zigzag_count - 1) * (odd - even) - turning
 
     most = min(LARGEST_CHANGE / 2, (math.radians(88) - sector_angle))
     if miss(most) < 0 or miss(-most) > 0:
-        raise ValueError(f"turning of {math.degrees(turning):.0f} deg: too much for {zigzags} rows")
+        raise ValueError(
+            f"turning of {math.degrees(turning):.0f} deg: too much for {zigzag_count} rows"
+        )
     from scipy.optimize import brentq  # takes longer to import than most patterns to make
 
     change = brentq(miss, -most, most)
     even, odd = sector_angle - change, sector_angle + change
     # Even (lowest) vertices are a chord over an odd one apart, so its slope sets their distance.
     slope = strip_slope(odd, fold)
-    pitch = lengths[0] / ((strips - 1) * math.cos(fold / 2))
+    pitch = lengths[0] / ((strip_count - 1) * math.cos(fold / 2))
     offset = _zigzag_offset(pitch, even, odd, fold)
-    side = (lengths[1] - offset) / ((zigzags - 1) * math.cos(slope))
+    side = (lengths[1] - offset) / ((zigzag_count - 1) * math.cos(slope))
     if side <= 0:
-        raise ValueError(f"strips {strips}: too few for zig-zags {zigzags}")
-    return ArcMiura(float(side), float(pitch), even, odd, zigzags, strips), fold
+        raise ValueError(f"strips {strip_count}: too few for zig-zags {zigzag_count}")
+    return ArcMiura(float(side), float(pitch), even, odd, zigzag_count, strip_count), fold
 
 
 def _zigzag_offset(pitch: float, even: float, odd: float, fold: float) -> float:
@@ -118,9 +122,9 @@ def make_arc_sheet(pattern: ArcMiura, strip_fold: float, frames: int = 9) -> She
     offset = _zigzag_offset(pattern.pitch, pattern.angle_even, pattern.angle_odd, strip_fold)
     unrolled = np.column_stack(
         [
-            grid.strip * pattern.pitch * math.cos(strip_fold / 2),
-            grid.zigzag * pattern.side * math.cos(slope) + (grid.strip % 2) * offset,
-            (grid.zigzag % 2) * pattern.side * math.sin(slope),
+            grid.strip_index * pattern.pitch * math.cos(strip_fold / 2),
+            grid.zigzag_index * pattern.side * math.cos(slope) + (grid.strip_index % 2) * offset,
+            (grid.zigzag_index % 2) * pattern.side * math.sin(slope),
         ]
     )
     folds = np.linspace(0, strip_fold, frames) if frames else []

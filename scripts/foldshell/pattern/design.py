@@ -16,8 +16,8 @@ SECTOR_ANGLES_DEG = (46.0, 88.0)  # near 45 the rest state is flat, near 90 zig-
 def design_sheet(
     pattern: str,
     section_lengths: tuple[float, float],
-    zigzags: int,
-    strips: int,
+    zigzag_count: int,
+    strip_count: int,
     sector_angle_deg: float,
     frames: int = 9,
     turning: float = 0.0,
@@ -28,19 +28,19 @@ def design_sheet(
     grid of panels to lay on the target; flat, the Miura sheet before folding. `frames` states
     of the folding path are kept with it.
     """
-    if zigzags < 3 or strips < 3:
-        raise ValueError(f"zigzag {zigzags}, strip {strips}: must be at least 3 each")
+    if zigzag_count < 3 or strip_count < 3:
+        raise ValueError(f"zigzag {zigzag_count}, strip {strip_count}: must be at least 3 each")
     if pattern == "smooth":
-        return _make_smooth_sheet(section_lengths, zigzags, strips)
+        return _make_smooth_sheet(section_lengths, zigzag_count, strip_count)
     low, high = SECTOR_ANGLES_DEG
     if not low <= sector_angle_deg <= high:
         raise ValueError(f"sector_angle_deg {sector_angle_deg}: must be {low:g} to {high:g}")
     if pattern == "arc_miura":
         arc, fold = size_arc_miura(
-            section_lengths, turning, math.radians(sector_angle_deg), zigzags, strips
+            section_lengths, turning, math.radians(sector_angle_deg), zigzag_count, strip_count
         )
         return make_arc_sheet(arc, fold, frames)
-    miura = size_miura(*section_lengths, math.radians(sector_angle_deg), zigzags, strips)
+    miura = size_miura(*section_lengths, math.radians(sector_angle_deg), zigzag_count, strip_count)
     if pattern == "miura":
         return make_miura_sheet(miura, frames)
     if pattern == "flat":
@@ -49,13 +49,13 @@ def design_sheet(
     raise ValueError(f"pattern {pattern!r}: must be one of {', '.join(PATTERNS)}")
 
 
-def _make_smooth_sheet(lengths: tuple[float, float], zigzags: int, strips: int) -> Sheet:
-    grid = remove_creases(build_grid(zigzags, strips))
+def _make_smooth_sheet(lengths: tuple[float, float], zigzag_count: int, strip_count: int) -> Sheet:
+    grid = remove_creases(build_grid(zigzag_count, strip_count))
     flat = np.column_stack(
         [
-            grid.strip * lengths[0] / (strips - 1),
-            grid.zigzag * lengths[1] / (zigzags - 1),
-            np.zeros(len(grid.strip)),
+            grid.strip_index * lengths[0] / (strip_count - 1),
+            grid.zigzag_index * lengths[1] / (zigzag_count - 1),
+            np.zeros(len(grid.strip_index)),
         ]
     )
     return Sheet("smooth", grid, flat, flat, (), {})

@@ -47,8 +47,8 @@ def describe_sheet(sheet: Sheet, title: str) -> dict[str, Any]:
         "faces_vertices": grid.facets.tolist(),
         "foldshell:kind": sheet.kind,
         "foldshell:settings": sheet.settings,
-        "foldshell:zigzag": grid.zigzag.tolist(),
-        "foldshell:strip": grid.strip.tolist(),
+        "foldshell:zigzag": grid.zigzag_index.tolist(),
+        "foldshell:strip": grid.strip_index.tolist(),
         "foldshell:panels": grid.quads.tolist(),
         "file_frames": [_describe_frame(frame, grid) for frame in (*rest, *sheet.path)],
     }
@@ -106,18 +106,22 @@ def read_fold(path: str | Path) -> Sheet:
 
 
 def _read_grid(path: str | Path, data: dict[str, Any]) -> Grid:
-    zigzag, strip = (_read_integers(path, data, f"foldshell:{k}") for k in ("zigzag", "strip"))
-    if not (len(zigzag) == len(strip) > 0):
+    zigzag_index, strip_index = (
+        _read_integers(path, data, f"foldshell:{name}") for name in ("zigzag", "strip")
+    )
+    if not (len(zigzag_index) == len(strip_index) > 0):
         raise InputError(
-            f"{path}: foldshell:strip: {len(strip)} entries: as many as foldshell:zigzag"
+            f"{path}: foldshell:strip: {len(strip_index)} entries: as many as foldshell:zigzag"
         )
-    zigzags, strips = int(zigzag.max()) + 1, int(strip.max()) + 1
-    if zigzags < 3 or strips < 3:
-        raise InputError(f"{path}: foldshell:zigzag: {zigzags} x {strips} polylines: at least 3")
-    grid = build_grid(zigzags, strips)
+    zigzag_count, strip_count = int(zigzag_index.max()) + 1, int(strip_index.max()) + 1
+    if zigzag_count < 3 or strip_count < 3:
+        raise InputError(
+            f"{path}: foldshell:zigzag: {zigzag_count} x {strip_count} polylines: at least 3"
+        )
+    grid = build_grid(zigzag_count, strip_count)
     if data.get("foldshell:kind") == "smooth":
         grid = remove_creases(grid)
-    expected = {"foldshell:zigzag": grid.zigzag, "foldshell:strip": grid.strip,
+    expected = {"foldshell:zigzag": grid.zigzag_index, "foldshell:strip": grid.strip_index,
                 "edges_vertices": grid.edges, "faces_vertices": grid.facets}  # fmt: skip
     for key, value in expected.items():
         if not np.array_equal(_read_integers(path, data, key), value):
@@ -144,9 +148,13 @@ def _read_vertices(path: str | Path, data: dict[str, Any], where: str, grid: Gri
         values = np.array(data.get("vertices_coords"), dtype=float)
     except (TypeError, ValueError):
         values = np.empty(0)
-    if values.ndim != 2 or values.shape[0] != len(grid.zigzag) or values.shape[1] not in (2, 3):
+    if (
+        values.ndim != 2
+        or values.shape[0] != len(grid.zigzag_index)
+        or values.shape[1] not in (2, 3)
+    ):
         raise InputError(
-            f"{path}: {where}: {values.shape}: {len(grid.zigzag)} rows of 2 or 3 coordinates"
+            f"{path}: {where}: {values.shape}: {len(grid.zigzag_index)} rows of 2 or 3 coordinates"
         )
     if not np.isfinite(values).all():
         raise InputError(f"{path}: {where}: not finite: coordinates must be numbers")

@@ -9,24 +9,24 @@ BOUNDARY, MOUNTAIN, VALLEY, FLAT = "B", "M", "V", "F"
 
 @dataclass(frozen=True)
 class Grid:
-    """Connectivity of `zigzags` x `strips` polylines, borders included.
+    """Connectivity of `zigzag_count` x `strip_count` polylines, borders included.
 
-    Vertex (i, j) is row `i * strips + j`; panel (i, j) is `i * (strips - 1) + j`.
+    Vertex (i, j) is row `i * strip_count + j`; panel (i, j) is `i * (strip_count - 1) + j`.
     Edges come in three runs: along zig-zags, along strips, neutral folds (one a panel).
     """
 
-    zigzags: int
-    strips: int
+    zigzag_count: int
+    strip_count: int
     quads: np.ndarray  # (P, 4) counter-clockwise from above
     facets: np.ndarray  # (2P, 3) rows 2p and 2p + 1 are panel p
     edges: np.ndarray  # (E, 2)
     assignments: np.ndarray  # (E,) of "B", "M", "V", "F"
-    zigzag: np.ndarray  # (V,) index i of each vertex
-    strip: np.ndarray  # (V,) index j of each vertex
+    zigzag_index: np.ndarray  # (V,) index i of each vertex
+    strip_index: np.ndarray  # (V,) index j of each vertex
 
     @property
     def panels(self) -> int:
-        """Number of panels, (zigzags - 1)(strips - 1)."""
+        """Number of panels, (zigzag_count - 1)(strip_count - 1)."""
         return len(self.quads)
 
     @property
@@ -47,17 +47,17 @@ class Hinges:
     edges: np.ndarray
 
 
-def build_grid(zigzags: int, strips: int) -> Grid:
+def build_grid(zigzag_count: int, strip_count: int) -> Grid:
     """Build panels, facets and edges of a Miura-like grid.
 
     Even zig-zags fold as valleys, odd ones as mountains; along strips the sign alternates
     with i + j, so that every interior vertex has three folds of its zig-zag's kind and one of
     the other. Neutral folds join the panels' obtuse corners, which alternate by column.
     """
-    if zigzags < 3 or strips < 3:
-        raise ValueError(f"zig-zags {zigzags} and strips {strips}: at least 3 of each")
-    number = np.arange(zigzags * strips).reshape(zigzags, strips)
-    row, column = np.divmod(np.arange(number.size), strips)
+    if zigzag_count < 3 or strip_count < 3:
+        raise ValueError(f"zig-zags {zigzag_count} and strips {strip_count}: at least 3 of each")
+    number = np.arange(zigzag_count * strip_count).reshape(zigzag_count, strip_count)
+    row, column = np.divmod(np.arange(number.size), strip_count)
     quads = _stack(number[:-1, :-1], number[:-1, 1:], number[1:, 1:], number[1:, :-1])
     diagonals = _shorter_diagonals(quads, column[quads[:, 0]])
     along_zigzag = _stack(number[:, :-1], number[:, 1:])
@@ -65,17 +65,17 @@ def build_grid(zigzags: int, strips: int) -> Grid:
     edges = np.vstack([along_zigzag, along_strip, diagonals])
     assignments = np.concatenate(
         [
-            _assign(row[along_zigzag[:, 0]], row[along_zigzag[:, 0]] % (zigzags - 1) == 0),
+            _assign(row[along_zigzag[:, 0]], row[along_zigzag[:, 0]] % (zigzag_count - 1) == 0),
             _assign(
                 (row + column)[along_strip[:, 0]] + 1,
-                column[along_strip[:, 0]] % (strips - 1) == 0,
+                column[along_strip[:, 0]] % (strip_count - 1) == 0,
             ),
             np.full(len(quads), FLAT),
         ]
     )
     return Grid(
-        zigzags,
-        strips,
+        zigzag_count,
+        strip_count,
         quads,
         split_quads(quads, column[quads[:, 0]]),
         edges,
@@ -102,7 +102,9 @@ def split_quads(quads: np.ndarray, column: np.ndarray) -> np.ndarray:
 
 def find_outline(grid: Grid) -> np.ndarray:
     """Border vertices in counter-clockwise order."""
-    number = np.arange(grid.zigzags * grid.strips).reshape(grid.zigzags, grid.strips)
+    number = np.arange(grid.zigzag_count * grid.strip_count).reshape(
+        grid.zigzag_count, grid.strip_count
+    )
     sides = [number[0, :-1], number[:-1, -1], number[-1, :0:-1], number[:0:-1, 0]]
     return np.concatenate(sides)
 

@@ -21,8 +21,8 @@ class Miura:
     side_a: float
     side_b: float
     sector_angle: float
-    zigzags: int
-    strips: int
+    zigzag_count: int
+    strip_count: int
 
     def __post_init__(self) -> None:
         if not (self.side_a > 0 and self.side_b > 0):
@@ -33,7 +33,7 @@ class Miura:
     @property
     def grid(self) -> Grid:
         """Panels, facets, edges and fold directions."""
-        return build_grid(self.zigzags, self.strips)
+        return build_grid(self.zigzag_count, self.strip_count)
 
 
 @dataclass(frozen=True)
@@ -66,17 +66,17 @@ def fold_cell(pattern: Miura, fold_angle: float) -> Cell:
 
 
 def place_cells(
-    cell: Cell, zigzags: int, strips: int, widths: np.ndarray | None = None
+    cell: Cell, zigzag_count: int, strip_count: int, widths: np.ndarray | None = None
 ) -> np.ndarray:
     """X(i, j) = (j S, i L + (j odd) V, (i odd) H): vertices (V, 3) [m].
 
-    `widths` (strips - 1,) scales each strip's S and V. The vertices keep their angles, so the
+    `widths` (strip_count - 1,) scales each strip's S and V. The vertices keep their angles, so the
     sheet folds flat as before, but its zig-zags run along a curve.
     """
-    row, column = np.divmod(np.arange(zigzags * strips), strips)
+    row, column = np.divmod(np.arange(zigzag_count * strip_count), strip_count)
     across, ahead = column * 1.0, column % 2 * 1.0
     if widths is not None:
-        turns = np.where(np.arange(strips - 1) % 2 == 0, widths, -widths)
+        turns = np.where(np.arange(strip_count - 1) % 2 == 0, widths, -widths)
         across, ahead = (np.append(0.0, np.cumsum(w))[column] for w in (widths, turns))
     return np.column_stack(
         [
@@ -97,9 +97,10 @@ def folded_vertices(
 ) -> np.ndarray:
     """Vertices (V, 3) [m] of the folded planar state at `fold_angle` [rad].
 
-    `widths` (strips - 1,) are the strips' widths over `side_b`, all 1 unless given.
+    `widths` (strip_count - 1,) are the strips' widths over `side_b`, all 1 unless given.
     """
-    return place_cells(fold_cell(pattern, fold_angle), pattern.zigzags, pattern.strips, widths)
+    cell = fold_cell(pattern, fold_angle)
+    return place_cells(cell, pattern.zigzag_count, pattern.strip_count, widths)
 
 
 def rest_fold_angle(sector_angle: float, poisson: float = -1.0) -> float:
@@ -124,22 +125,28 @@ def size_miura(
     length_across_strips: float,
     length_across_zigzags: float,
     sector_angle: float,
-    zigzags: int,
-    strips: int,
+    zigzag_count: int,
+    strip_count: int,
     poisson: float = -1.0,
 ) -> Miura:
     """Choose sides so that the rest state measures the two given lengths [m].
 
-    (strips - 1) S = first, (zigzags - 1) L + V = second; `poisson` is the rest state's ratio.
+    (strip_count - 1) S = first, (zigzag_count - 1) L + V = second; `poisson` is the rest state's
+    ratio.
     """
     rest = rest_fold_angle(sector_angle, poisson)
-    unit = fold_cell(Miura(1.0, 1.0, sector_angle, zigzags, strips), rest)
-    side_b = length_across_strips / ((strips - 1) * unit.across_strips)
+    unit = fold_cell(Miura(1.0, 1.0, sector_angle, zigzag_count, strip_count), rest)
+    side_b = length_across_strips / ((strip_count - 1) * unit.across_strips)
     rows = length_across_zigzags - side_b * unit.offset
     if rows <= 0:
         raise ValueError(
-            f"strips {strips}: too few for zig-zags {zigzags}, one panel is longer than the span"
+            f"strips {strip_count}: too few for zig-zags {zigzag_count}, one panel is longer than "
+            "the span"
         )
     return Miura(
-        rows / ((zigzags - 1) * unit.across_zigzags), side_b, sector_angle, zigzags, strips
+        rows / ((zigzag_count - 1) * unit.across_zigzags),
+        side_b,
+        sector_angle,
+        zigzag_count,
+        strip_count,
     )

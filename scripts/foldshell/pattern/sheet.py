@@ -45,7 +45,7 @@ def make_miura_sheet(
 ) -> Sheet:
     """Standard Miura sheet with `frames` states of its path, flat to nearly folded flat.
 
-    Its rest state is that whose in-plane Poisson's ratio is `poisson`; `widths` (strips - 1,)
+    Its rest state is that whose in-plane Poisson's ratio is `poisson`; `widths` (strip_count - 1,)
     are its strips' widths over `side_b`, all 1 unless given.
     """
     rest = rest_fold_angle(pattern.sector_angle, poisson)

@@ -29,7 +29,7 @@ def unfold_panels(vertices: np.ndarray, grid: Grid) -> Assembly:
     The first column is laid upwards from panel (0, 0), then every row across from it. The
     sheet's middle is turned so that its strip lines run along y.
     """
-    local = flatten_panels(vertices[grid.quads]).reshape(grid.zigzags - 1, -1, 4)
+    local = flatten_panels(vertices[grid.quads]).reshape(grid.zigzag_count - 1, -1, 4)
     placed = np.empty_like(local)
     placed[0, 0] = local[0, 0]
     for i in range(1, len(local)):  # edge a-b of a panel is edge d-c of the one below
@@ -78,8 +78,8 @@ def _gather(corners: np.ndarray, grid: Grid) -> Assembly:
 
 def _align(flat: np.ndarray, grid: Grid) -> np.ndarray:
     """Turn a flat sheet so that its strip lines run along y on the whole; corner at 0."""
-    along = flat[grid.zigzag == grid.zigzags - 1].mean(axis=0)
-    along -= flat[grid.zigzag == 0].mean(axis=0)
+    along = flat[grid.zigzag_index == grid.zigzag_count - 1].mean(axis=0)
+    along -= flat[grid.zigzag_index == 0].mean(axis=0)
     cosine, sine = along[1] / np.hypot(*along[:2]), along[0] / np.hypot(*along[:2])
     turned = flat @ np.array([[cosine, sine, 0], [-sine, cosine, 0], [0, 0, 1.0]])
     return turned - turned.min(axis=0)
@@ -99,10 +99,12 @@ def fold_panels(flat: np.ndarray, grid: Grid, folds: np.ndarray) -> Assembly:
     Each panel takes its neighbour's motion and turns on about the shared edge; the first
     column is folded upwards, then every row across.
     """
-    rows, columns = grid.zigzags - 1, grid.strips - 1
+    rows, columns = grid.zigzag_count - 1, grid.strip_count - 1
     corners = flat[grid.quads].reshape(rows, columns, 4, 3)
-    along_zigzag = folds[: grid.zigzags * columns].reshape(grid.zigzags, columns)
-    along_strip = folds[grid.zigzags * columns : grid.neutral.start].reshape(rows, grid.strips)
+    along_zigzag = folds[: grid.zigzag_count * columns].reshape(grid.zigzag_count, columns)
+    along_strip = folds[grid.zigzag_count * columns : grid.neutral.start].reshape(
+        rows, grid.strip_count
+    )
     turn = np.empty((rows, columns, 3, 3))
     shift = np.empty((rows, columns, 3))
     turn[0, 0], shift[0, 0] = np.eye(3), 0.0

@@ -6,14 +6,14 @@ SUPPORTS = ("all", "zigzag", "strip")
 
 
 def supported_pairs(
-    pairs: np.ndarray, zigzag: np.ndarray, strip: np.ndarray, support: str
+    pairs: np.ndarray, zigzag_index: np.ndarray, strip_index: np.ndarray, support: str
 ) -> np.ndarray:
     """Return those facet edges (K, 2) that lie on supported border polylines.
 
     Parameters
     ----------
     pairs : (C, 2) vertex numbers of all facet edges
-    zigzag, strip : (V,) polyline indices of the vertices
+    zigzag_index, strip_index : (V,) polylines that the vertices lie on
     support : "zigzag" pins the first and last zig-zag, "strip" those strips, "all" all four
 
     Raises
@@ -24,7 +24,7 @@ def supported_pairs(
     if support not in SUPPORTS:
         raise ValueError(f"support {support!r}: allowed are {', '.join(SUPPORTS)}")
     chosen = np.zeros(len(pairs), dtype=bool)
-    for name, index in (("zigzag", zigzag), ("strip", strip)):
+    for name, index in (("zigzag", zigzag_index), ("strip", strip_index)):
         if support in (name, "all"):
             ends = index[pairs]
             for border in (index.min(), index.max()):

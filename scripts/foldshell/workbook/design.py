@@ -87,8 +87,8 @@ def _add_panels(book: Any, styles: Styles, report: DesignReport) -> None:
     grid = report.grid
     values = {
         "panel": grid.panel.tolist(),
-        "zigzag": grid.zigzag.tolist(),
-        "strip": grid.strip.tolist(),
+        "zigzag": grid.zigzag_index.tolist(),
+        "strip": grid.strip_index.tolist(),
         "thickness_m": report.thickness.tolist(),
         "utilization": report.utilization.tolist(),
     }

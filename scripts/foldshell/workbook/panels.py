@@ -11,15 +11,15 @@ IntArray = npt.NDArray[np.int64]
 
 @dataclass(frozen=True)
 class PanelGrid:
-    """Panels between zig-zags i, i+1 and strips j, j+1; panel p = i (strips - 1) + j."""
+    """Panels between zig-zags i, i+1 and strips j, j+1; panel p = i (strip_count - 1) + j."""
 
-    zigzag: IntArray
-    strip: IntArray
+    zigzag_index: IntArray
+    strip_index: IntArray
 
     @property
     def panel(self) -> IntArray:
         """Panel ids 0, 1, 2, ..."""
-        return np.arange(self.zigzag.size)
+        return np.arange(self.zigzag_index.size)
 
 
 @dataclass(frozen=True)
@@ -37,7 +37,7 @@ class ThicknessTable:
     note: tuple[str, ...] | None = None
 
 
-def make_panel_grid(zigzag: int, strip: int) -> PanelGrid:
-    """Number the (zigzag - 1)(strip - 1) panels between counts of polylines."""
-    rows, columns = np.divmod(np.arange((zigzag - 1) * (strip - 1)), strip - 1)
+def make_panel_grid(zigzag_count: int, strip_count: int) -> PanelGrid:
+    """Number the (zigzag_count - 1)(strip_count - 1) panels between counts of polylines."""
+    rows, columns = np.divmod(np.arange((zigzag_count - 1) * (strip_count - 1)), strip_count - 1)
     return PanelGrid(rows, columns)

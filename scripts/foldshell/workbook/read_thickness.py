@@ -117,9 +117,8 @@ def _read_panel(
 
 def _check_indices(cells: dict[str, Cell | None], panel: int, grid: PanelGrid, place: str) -> None:
     """Refuse a row whose indices belong to another panel: a column was moved or sorted alone."""
-    for name in ("zigzag", "strip"):
-        cell = cells.get(name)
-        due = int(getattr(grid, name)[panel])
+    for name, index in (("zigzag", grid.zigzag_index), ("strip", grid.strip_index)):
+        cell, due = cells.get(name), int(index[panel])
         if cell is not None and _to_number(cell) != due:
             raise InputError(
                 f"{place}: cell {cell.reference}: {_show(cell)}: {name} of panel {panel} is {due}"

@@ -53,7 +53,7 @@ def write_thickness(
     """
     thickness = round_thickness(table.thickness)
     inside = np.isfinite(thickness) & (thickness >= least) & (thickness <= largest)
-    if thickness.shape != table.grid.zigzag.shape or not inside.all():
+    if thickness.shape != table.grid.zigzag_index.shape or not inside.all():
         raise ValueError(f"one thickness a panel from {least} to {largest} m is due")
     with create_workbook(path, "Thickness of the panels") as (book, styles):
         sheet = add_sheet(book, "summary", landscape=False)
@@ -68,7 +68,12 @@ def write_thickness(
 
 
 def _write_panels(sheet: Any, styles: Styles, table: ThicknessTable, thickness: FloatArray) -> None:
-    values: list[Any] = [table.grid.panel, table.grid.zigzag, table.grid.strip, thickness]
+    values: list[Any] = [
+        table.grid.panel,
+        table.grid.zigzag_index,
+        table.grid.strip_index,
+        thickness,
+    ]
     results = [table.previous, table.utilization, table.change, table.note]
     columns = list(COLUMNS)
     if any(result is not None for result in results):

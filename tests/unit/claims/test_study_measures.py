@@ -24,7 +24,7 @@ from sizing_case import PANELS, STRIP, ZIGZAG, corrugated_sheet
     ],
 )
 def test_panels_along_free_edges(support, panels):
-    """Panel p = i (strips - 1) + j; strips held leave the first and last row of i free."""
+    """Panel p = i (strip_count - 1) + j; strips held leave the first and last row of i free."""
     assert np.flatnonzero(Layout(ZIGZAG, STRIP, support).free_edge_panels).tolist() == panels
 
 

@@ -19,8 +19,8 @@ from foldshell.pattern.miura import Miura, folded_vertices, rest_fold_angle
 CASES = [(60, None), (60, 40), (70, 50), (50, 30)]
 
 
-def _state(sector, fold, zigzags=7, strips=8):
-    pattern = Miura(1.0, 1.3, math.radians(sector), zigzags, strips)
+def _state(sector, fold, zigzag_count=7, strip_count=8):
+    pattern = Miura(1.0, 1.3, math.radians(sector), zigzag_count, strip_count)
     angle = rest_fold_angle(pattern.sector_angle) if fold is None else math.radians(fold)
     return pattern, angle
 
@@ -55,10 +55,10 @@ def test_what_is_missed_grows_with_density():
     assert all(fine[name] > coarse[name] for name in ("dome", "arch", "arch_strip"))
 
 
-@pytest.mark.parametrize(("zigzags", "strips"), [(5, 6), (7, 8)])
-def test_rigid_quadrilaterals_have_one_freedom_and_are_over_constrained(zigzags, strips):
+@pytest.mark.parametrize(("zigzag_count", "strip_count"), [(5, 6), (7, 8)])
+def test_rigid_quadrilaterals_have_one_freedom_and_are_over_constrained(zigzag_count, strip_count):
     """One mechanism whatever the size; bending panels have many and no redundancy."""
-    pattern, angle = _state(60, None, zigzags, strips)
+    pattern, angle = _state(60, None, zigzag_count, strip_count)
     vertices = folded_vertices(pattern, angle)
     rigid = count_mechanisms(vertices, pattern.grid, True)
     assert rigid.freedoms == 1 and rigid.self_stresses > 5

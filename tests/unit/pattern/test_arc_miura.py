@@ -46,8 +46,8 @@ def test_rest_state_turns_as_asked(turning):
     """The chords between valley vertices of one strip turn by 2 turning / (zig-zags - 1) each."""
     pattern, fold = size_arc_miura((30.0, 28.0), turning, ANGLE, 9, 8)
     rest, grid = fold_arc_vertices(pattern, fold), pattern.grid
-    strip = rest[(grid.strip == 3) & (grid.zigzag % 2 == 0)]
-    ridge = rest[(grid.strip == 3) & (grid.zigzag == 1)][0] - strip[0]
+    strip = rest[(grid.strip_index == 3) & (grid.zigzag_index % 2 == 0)]
+    ridge = rest[(grid.strip_index == 3) & (grid.zigzag_index == 1)][0] - strip[0]
     chords = np.diff(strip, axis=0)
     chords /= np.linalg.norm(chords, axis=1)[:, None]
     steps = np.arccos(np.einsum("ij,ij->i", chords[1:], chords[:-1]))

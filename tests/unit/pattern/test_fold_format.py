@@ -67,12 +67,12 @@ def test_valley_of_two_faces_is_positive():
 def test_every_interior_vertex_obeys_maekawa(sheet):
     grid = sheet.grid
     sign = {"M": 1, "V": -1, "B": 0, "F": 0}
-    total = np.zeros(len(grid.zigzag))
+    total = np.zeros(len(grid.zigzag_index))
     for edge, assignment in zip(grid.edges, grid.assignments, strict=True):
         total[edge] += sign[assignment]
-    inner = np.isin(grid.zigzag, [1, 2, 3]) & np.isin(grid.strip, [1, 2, 3, 4])
+    inner = np.isin(grid.zigzag_index, [1, 2, 3]) & np.isin(grid.strip_index, [1, 2, 3, 4])
     assert (np.abs(total[inner]) == 2).all()
-    assert (np.sign(total[inner]) == np.where(grid.zigzag[inner] % 2, 1, -1)).all()
+    assert (np.sign(total[inner]) == np.where(grid.zigzag_index[inner] % 2, 1, -1)).all()
 
 
 def test_edges_are_unique_and_facets_lie_above(sheet):

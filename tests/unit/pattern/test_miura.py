@@ -115,7 +115,7 @@ def test_strips_of_unequal_width_fold_as_equal_ones_do():
         assert np.abs(_edge_lengths(folded, grid) - _edge_lengths(flat, grid)).max() < 1e-12
         assert np.abs(measure_folds(folded, grid)[grid.neutral]).max() < 1e-12
         assert np.abs(flat_foldability_residual(folded, grid)).max() < 1e-12
-    zigzag = _edge_lengths(flat, grid)[: grid.strips - 1]
+    zigzag = _edge_lengths(flat, grid)[: grid.strip_count - 1]
     assert zigzag == pytest.approx(pattern.side_b * widths, rel=1e-14)
     same = folded_vertices(pattern, 0.7, np.ones(6))
     assert same == pytest.approx(folded_vertices(pattern, 0.7), abs=1e-14)

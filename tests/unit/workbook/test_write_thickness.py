@@ -14,11 +14,11 @@ from workbook_cases import GRID, LARGEST, LEAST, SUMMARY, THICKNESS, write_case
 
 
 def test_panel_ids_run_along_strips():
-    """Panel p = i (strips - 1) + j between zig-zags i, i+1 and strips j, j+1."""
+    """Panel p = i (strip_count - 1) + j between zig-zags i, i+1 and strips j, j+1."""
     grid = make_panel_grid(4, 5)
     assert grid.panel.size == 12
-    assert (grid.panel == grid.zigzag * 4 + grid.strip).all()
-    assert (grid.zigzag.max(), grid.strip.max()) == (2, 3)
+    assert (grid.panel == grid.zigzag_index * 4 + grid.strip_index).all()
+    assert (grid.zigzag_index.max(), grid.strip_index.max()) == (2, 3)
 
 
 def test_rounding_keeps_12_digits_and_changes_nothing_twice():
@@ -35,7 +35,7 @@ def test_round_trip_is_exact(tmp_path):
     Without the rounding the 16 printed digits change 46 % of doubles in the last place.
     """
     grid = make_panel_grid(101, 91)
-    values = np.random.default_rng(2).uniform(LEAST, LARGEST, grid.zigzag.size)
+    values = np.random.default_rng(2).uniform(LEAST, LARGEST, grid.zigzag_index.size)
     path = tmp_path / "thickness.xlsx"
     write_thickness(path, ThicknessTable(grid, values), SUMMARY, LEAST, LARGEST)
     read = read_thickness(path, grid, LEAST, LARGEST)
