@@ -29,9 +29,12 @@ def code_inputs(script):
     return write_library_list(f"{SCRIPTS}/{script}.py", SCRIPTS, ".snakemake/library")
 
 
-def assets(*names):
-    """Return files of the pages, as inputs of a rule: they are read, not imported."""
-    return [f"{SCRIPTS}/foldshell/report/{name}" for name in names]
+def assets():
+    """Return the list of templates, styles and scripts of the pages, as an input of a rule: they
+    are read, not imported."""
+    files = [path for path in Path(f"{SCRIPTS}/foldshell/report").rglob("*") if path.is_file()]
+    data = sorted(path for path in files if path.suffix not in (".py", ".pyc"))
+    return write_content_list(data, ".snakemake/library")
 
 
 def of_design(*columns):

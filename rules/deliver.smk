@@ -43,9 +43,7 @@ rule page:
         comparison=rules.compare.output.comparison,
         pictures=[rules.draw.output[name] for name in PICTURES],
         library=code_inputs("page"),
-        assets=assets(
-            "page.css", "stage.html", "data.js", "renderer.js", "camera.js", "viewer.js"
-        ),
+        assets=assets(),
     output:
         page=report(
             f"{RESULTS}/{{design}}/page.html",

@@ -26,7 +26,7 @@ rule report_pages:
         summary=rules.summary.output.csv,
         verification=[f"{SCRIPTS}/../tests/verification/README.md"],
         library=code_inputs("report_pages"),
-        assets=assets("page.css", "summary.js"),
+        assets=assets(),
     output:
         summary=report(
             f"{RESULTS}/report/summary.html",
@@ -60,7 +60,7 @@ rule claims_page:
     input:
         claims=f"{RESULTS}/claims.md",
         library=code_inputs("claims_page"),
-        assets=assets("page.css"),
+        assets=assets(),
     output:
         page=report(
             f"{RESULTS}/report/claims.html",
@@ -85,7 +85,7 @@ rule report:
     input:
         report_files,
         library=code_inputs("report"),
-        stylesheet=assets("report.css")[0],
+        stylesheet=f"{SCRIPTS}/foldshell/report/report.css",
     output:
         report=f"{RESULTS}/report.html",
     params:

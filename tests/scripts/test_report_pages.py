@@ -16,7 +16,7 @@ def test_three_pages_are_written(tmp_path):
                       {"sizing": {"step": 0.1}})  # fmt: skip
     text = {name: path.read_text(encoding="utf-8") for name, path in pages.items()}
     assert "1 converged: 1 in all" in text["summary"]
-    assert "<td>plate</td><td>4</td>" in text["verification"]
+    assert "<td>plate</td>\n<td>4</td>" in text["verification"]
     for part in ("<td>step</td>", "snakemake", "numpy"):
         assert part in text["settings"]
 

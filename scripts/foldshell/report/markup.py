@@ -1,18 +1,17 @@
-"""Small pieces of HTML whose texts are escaped, and plain data that is safe inside a script."""
+"""Values as the pages' templates take them, and the templates filled in: all text is escaped."""
 
-import html
-import json
+import functools
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
+from pathlib import Path
 from typing import Any
 
-ESCAPES = {"<": "\\u003c", ">": "\\u003e", "&": "\\u0026", "\u2028": "\\u2028", "\u2029": "\\u2029"}
-POLICY = (
-    "default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data: "
-    "'self' file:"
-)
-"""Forbids a page to ask any host for anything."""
+from jinja2 import Environment, FileSystemLoader, StrictUndefined
+from markupsafe import Markup
+
+FOLDER = Path(__file__).parent
+JSON_OPTIONS = {"allow_nan": False, "ensure_ascii": False, "separators": (",", ":")}
 
 
 @dataclass(frozen=True)
@@ -23,17 +22,27 @@ class Cell:
     kind: str = ""
 
 
-def escape(text: Any) -> str:
-    """Return a text that is safe between tags and inside quoted attributes."""
-    return html.escape(str(text), quote=True)
+@dataclass(frozen=True)
+class Table:
+    """Header, rows of cells, and which columns hold numbers, which stand at the right."""
+
+    header: tuple[str, ...]
+    rows: tuple[tuple[Cell, ...], ...]
+    numeric: tuple[bool, ...]
 
 
-def dump_json(data: Any) -> str:
-    """Return JSON that may stand inside a script element; nan and inf are refused."""
-    text = json.dumps(data, allow_nan=False, ensure_ascii=False, separators=(",", ":"))
-    for character, replacement in ESCAPES.items():
-        text = text.replace(character, replacement)
-    return text
+def make_table(header: Sequence[str], rows: Iterable[Sequence[Any]]) -> Table:
+    """Return a table of plain values and `Cell`s; a column of numbers and gaps is numeric."""
+    cells = tuple(
+        tuple(value if isinstance(value, Cell) else Cell(value) for value in row) for row in rows
+    )
+    numeric = tuple(bool(cells) and all(map(_is_number, column)) for column in zip(*cells))  # noqa: B905
+    return Table(tuple(header), cells, numeric or (False,) * len(header))
+
+
+def _is_number(cell: Cell) -> bool:
+    value = cell.value
+    return value is None or (isinstance(value, int | float) and not isinstance(value, bool))
 
 
 def format_number(value: Any, digits: int = 4) -> str:
@@ -53,51 +62,24 @@ def format_number(value: Any, digits: int = 4) -> str:
     return f"{value:.2e}"
 
 
-def make_table(header: Sequence[str], rows: Iterable[Sequence[Any]]) -> str:
-    """Return a table; numbers stand at the right, `Cell` values are coloured."""
-    rows = [list(row) for row in rows]
-    numeric = [bool(rows) and all(_is_number(row[k]) for row in rows) for k in range(len(header))]
-    head = "".join(
-        f"<th{' class=number' if n else ''}>{escape(name)}</th>"
-        for name, n in zip(header, numeric, strict=True)
-    )
-    body = "".join("<tr>" + "".join(map(_make_cell, row, numeric)) + "</tr>\n" for row in rows)
-    return (
-        f'<div class="scroll"><table><thead><tr>{head}</tr></thead>'
-        f"<tbody>\n{body}</tbody></table></div>"
-    )
+@functools.cache
+def templates() -> Environment:
+    """Return the environment of the templates: every value is escaped, a missing one an error."""
+    environment = Environment(
+        loader=FileSystemLoader(FOLDER / "templates"), autoescape=True, undefined=StrictUndefined,
+        trim_blocks=True, lstrip_blocks=True, keep_trailing_newline=True, auto_reload=False,
+    )  # fmt: skip
+    environment.policies["json.dumps_kwargs"] = JSON_OPTIONS
+    environment.filters["number"] = format_number
+    environment.globals["asset"] = read_asset
+    return environment
 
 
-def _is_number(value: Any) -> bool:
-    value = value.value if isinstance(value, Cell) else value
-    return value is None or (isinstance(value, int | float) and not isinstance(value, bool))
+def render(name: str, **values: Any) -> Markup:
+    """Return a template filled in, as markup that other templates take as it is."""
+    return Markup(templates().get_template(name).render(values))
 
 
-def _make_cell(value: Any, numeric: bool) -> str:
-    kind = value.kind if isinstance(value, Cell) else ""
-    value = value.value if isinstance(value, Cell) else value
-    names = " ".join(filter(None, ["number" if numeric else "", kind]))
-    return f"<td{f' class={chr(34)}{names}{chr(34)}' if names else ''}>" + (
-        f"{escape(format_number(value))}</td>"
-    )
-
-
-def make_page(title: str, style: str, body: str) -> str:
-    """Return a whole page that asks no host for anything."""
-    return f"""<!DOCTYPE html>
-<html lang="en">
-<head>
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width, initial-scale=1">
-<meta http-equiv="Content-Security-Policy" content="{POLICY}">
-<link rel="icon" href="data:,">
-<title>{escape(title)}</title>
-<style>
-{style}
-</style>
-</head>
-<body>
-{body}
-</body>
-</html>
-"""
+def read_asset(name: str) -> Markup:
+    """Return a style sheet or script of this folder: the project's own text, not escaped."""
+    return Markup((FOLDER / name).read_text(encoding="utf-8"))

@@ -1,14 +1,14 @@
-"""The tables of a design's page: verdict, criteria, folding, classes, mesh error, cross-check."""
+"""The sections of a design's page: verdict, criteria, history, checks, mesh error, folding."""
 
 import csv
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
 from foldshell.files.whole import read_json
 from foldshell.report.history_chart import Series, draw_history
-from foldshell.report.markup import Cell, escape, format_number, make_table
+from foldshell.report.markup import Cell, Table, format_number, make_table
 from foldshell.results.design_view import count_analyses
 from foldshell.workbook.styles import GOOD_VERDICTS
 
@@ -57,6 +57,28 @@ class DesignFiles:
     history: Sequence[Mapping[str, str]]
 
 
+@dataclass(frozen=True)
+class Box:
+    """A framed verdict: good or bad, the word that stands out, the rest, a reason below it."""
+
+    kind: str
+    words: str
+    head: str = ""
+    reason: str | None = None
+
+
+@dataclass(frozen=True)
+class Section:
+    """A titled part of a page; what it lacks is left out."""
+
+    title: str
+    box: Box | None = None
+    words: str = ""
+    table: Table | None = None
+    chart: str = ""
+    note: str = ""
+
+
 def read_files(design: Mapping[str, Any], paths: Mapping[str, str | Path]) -> DesignFiles:
     """Read final, quality, classes, mesh_convergence, comparison (JSON) and history (CSV)."""
     names = ("final", "quality", "classes", "mesh_convergence", "comparison")
@@ -65,36 +87,48 @@ def read_files(design: Mapping[str, Any], paths: Mapping[str, str | Path]) -> De
     return DesignFiles(design, *(read_json(paths[name]) for name in names), history)
 
 
-def write_verdict(files: DesignFiles) -> str:
-    """Return the box with verdict, count of analyses and reason."""
-    verdict = str(files.final.get("verdict"))
-    kind = "good" if verdict in GOOD_VERDICTS else "bad"
-    reason = files.final.get("reason") or ""
-    return (
-        f'<div class="verdict {kind}"><b>{escape(verdict.replace("_", " "))}</b> after '
-        f"{count_analyses(files.final)}<p>{escape(reason)}</p></div>"
-    )
+def make_sections(files: DesignFiles, utilization_max: float) -> list[Section]:
+    """Return all sections of a design's page, what matters most first."""
+    return [
+        make_verdict(files.final),
+        make_criteria(files.final.get("criteria") or {}),
+        make_history(files.history, utilization_max),
+        make_headlines(files.final),
+        make_crosscheck(files.comparison),
+        make_mesh_error(files.mesh_convergence),
+        make_classes(files.classes),
+        make_folding(files.quality),
+    ]
 
 
 def describe_design(design: Mapping[str, Any]) -> str:
     """Return the row of designs.tsv as one sentence."""
     tags = ", ".join(str(design.get("tags") or "none").split(","))
-    return escape(
+    return (
         f"{design['pattern']} pattern, surface {design['surface']}, span {design['span_m']:g} m, "
         f"height {design['height_m']:g} m, {design['zigzag']} zig-zags × {design['strip']} strips, "
         f"{design['support']} edges supported, folded in mode {design['fold_mode']}; tags {tags}"
     )
 
 
-def write_criteria(criteria: Mapping[str, Mapping[str, Any]]) -> str:
+def make_verdict(final: Mapping[str, Any]) -> Section:
+    """Return verdict, count of analyses and reason."""
+    verdict = str(final.get("verdict"))
+    kind = "good" if verdict in GOOD_VERDICTS else "bad"
+    words = f"after {count_analyses(final)}"
+    box = Box(kind, words, verdict.replace("_", " "), final.get("reason") or "")
+    return Section("Verdict", box)
+
+
+def make_criteria(criteria: Mapping[str, Mapping[str, Any]]) -> Section:
     """Return the criteria with value, limit and whether they are met."""
     if not criteria:
-        return "<p>No criteria: the analysis gave no results.</p>"
+        return Section("Criteria", words="No criteria: the analysis gave no results.")
     rows = [
         (name_quantity(name), item.get("value"), item.get("limit"), _judge(item.get("met")))
         for name, item in criteria.items()
     ]
-    return make_table(("criterion", "value", "limit", "met"), rows)
+    return Section("Criteria", table=make_table(("criterion", "value", "limit", "met"), rows))
 
 
 def name_quantity(key: str, unit: bool = True) -> str:
@@ -109,31 +143,36 @@ def _judge(met: Any) -> Cell:
     return Cell("–") if met is None else Cell("yes", "good") if met else Cell("no", "bad")
 
 
-def write_pairs(labels: Mapping[str, str], values: Mapping[str, Any]) -> str:
-    """Return the labelled values that there are."""
-    rows = [(words, values[name]) for name, words in labels.items() if name in values]
-    return make_table(("quantity", "value"), rows) if rows else "<p>No results.</p>"
-
-
-def write_headlines(files: DesignFiles) -> str:
+def make_headlines(final: Mapping[str, Any]) -> Section:
     """Return the numbers of the final state, and the buckling factors."""
-    factors = files.final.get("buckling_factor") or {}
+    factors = final.get("buckling_factor") or {}
     words = ", ".join(f"{name} {format_number(value)}" for name, value in factors.items())
-    table = write_pairs(HEADLINES, files.final)
-    return table + (f'<p class="soft">Buckling factors: {escape(words)}</p>' if words else "")
+    note = f"Buckling factors: {words}" if words else ""
+    return _list_quantities(Section("Final state", note=note), HEADLINES, final)
 
 
-def write_folding(quality: Mapping[str, Any]) -> str:
+def make_folding(quality: Mapping[str, Any]) -> Section:
     """Return state, reason and measures of the folded sheet."""
     state = str(quality.get("state", "")).replace("_", " ")
-    words = f"<p>{escape(state)}: {escape(quality.get('reason') or 'no reason given')}</p>"
-    return words + write_pairs(FOLDING, quality)
+    words = f"{state}: {quality.get('reason') or 'no reason given'}"
+    return _list_quantities(Section("Folding", words=words), FOLDING, quality)
 
 
-def write_classes(classes: Mapping[str, Any]) -> str:
+def _list_quantities(
+    section: Section, labels: Mapping[str, str], values: Mapping[str, Any]
+) -> Section:
+    """Return the section with a table of the labelled values that there are."""
+    rows = [(words, values[name]) for name, words in labels.items() if name in values]
+    if not rows:
+        return replace(section, words=f"{section.words} No results.".strip())
+    return replace(section, table=make_table(("quantity", "value"), rows))
+
+
+def make_classes(classes: Mapping[str, Any]) -> Section:
     """Return the thickness classes and the verdict on the grouped design."""
+    title = "Thickness classes"
     if not classes.get("classes"):
-        return f"<p>No classes: {escape(classes.get('reason') or 'none were asked for')}</p>"
+        return Section(title, words=f"No classes: {classes.get('reason') or 'none were asked for'}")
     rows = [
         (item["class"], 1e3 * item["thickness_m"], item["panels"], item["area_m2"])
         for item in classes["classes"]
@@ -142,32 +181,32 @@ def write_classes(classes: Mapping[str, Any]) -> str:
     share = "" if added is None else f", volume {100 * added:+.1f} %"
     verdict = str(classes.get("verdict")).replace("_", " ")
     words = f"{verdict}{share}: {classes.get('reason') or ''}"
-    table = make_table(("class", "thickness [mm]", "panels", "area [m²]"), rows)
-    return f"<p>{escape(words)}</p>{table}"
+    return Section(
+        title,
+        words=words,
+        table=make_table(("class", "thickness [mm]", "panels", "area [m²]"), rows),
+    )
 
 
-def write_mesh_error(study: Mapping[str, Any]) -> str:
+def make_mesh_error(study: Mapping[str, Any]) -> Section:
     """Return how far each headline number is from that of a finer mesh."""
     errors = study.get("errors") or {}
     if not errors:
-        return f"<p>Not measured: {escape(study.get('reason') or 'no results')}</p>"
+        return Section("Mesh error", words=f"Not measured: {study.get('reason') or 'no results'}")
     names = list(dict.fromkeys(name for one in errors.values() for name in one))
     header = ["difference to the fine mesh", *(f"{name} [%]" for name in errors)]
-    rows = []
-    for name in names:
-        values = [one.get(name) for one in errors.values()]
-        shares = [None if v is None else 100 * v for v in values]
-        rows.append((name_quantity(name, unit=False), *shares))
-    return make_table(header, rows)
+    rows = [
+        (name_quantity(name, unit=False), *(_percent(one.get(name)) for one in errors.values()))
+        for name in names
+    ]
+    return Section("Mesh error", table=make_table(header, rows))
 
 
-def write_crosscheck(comparison: Mapping[str, Any]) -> str:
+def make_crosscheck(comparison: Mapping[str, Any]) -> Section:
     """Return both codes side by side with their tolerance."""
     passed = comparison.get("pass")
-    kind = "good" if passed else "bad"
     words = "every quantity is within its tolerance" if passed else "not within tolerance"
     note = comparison.get("note") or comparison.get("reason")
-    words = f"{words}: {note}" if note else words
     rows = [
         (
             name_quantity(name),
@@ -180,15 +219,18 @@ def write_crosscheck(comparison: Mapping[str, Any]) -> str:
         for name, item in (comparison.get("quantities") or {}).items()
     ]
     header = ("quantity", "primary", "independent", "difference [%]", "tolerance [%]", "within")
-    box = f'<div class="verdict {kind}">{escape(words)}</div>'
-    return box + (make_table(header, rows) if rows else "")
+    return Section(
+        "Cross-check by the independent code",
+        Box("good" if passed else "bad", f"{words}: {note}" if note else words),
+        table=make_table(header, rows) if rows else None,
+    )
 
 
 def _percent(value: float | None) -> float | None:
     return None if value is None else 100 * value
 
 
-def write_history(history: Sequence[Mapping[str, str]], utilization_max: float) -> str:
+def make_history(history: Sequence[Mapping[str, str]], utilization_max: float) -> Section:
     """Return the chart of volume, utilization and displacement over the iterations."""
 
     def column(name: str, factor: float = 1.0) -> list[float | None]:
@@ -196,10 +238,11 @@ def write_history(history: Sequence[Mapping[str, str]], utilization_max: float) 
         return [factor * float(row[name]) if row.get(name) else None for row in history]
 
     limits = [value for value in column("displacement_limit_m", 1e3) if value is not None]
-    return draw_history([
+    chart = draw_history([
         Series("volume [m³]", column("volume_m3"), {}),
         Series("utilization, largest panel mean [-]", column("utilization_panel_mean_max"),
                {f"limit {utilization_max:g}": utilization_max}),
         Series("vertical displacement, down [mm]", column("displacement_vertical_max_m", 1e3),
                {"limit": limits[-1]} if limits else {}),
     ])  # fmt: skip
+    return Section("History", chart=chart)

@@ -6,10 +6,9 @@ from pathlib import Path
 from typing import Any
 
 from foldshell.report.markdown import render_markdown
-from foldshell.report.markup import escape, format_number, make_page, make_table
+from foldshell.report.markup import Cell, make_table, render
 from foldshell.workbook.styles import GOOD_VERDICTS
 
-FOLDER = Path(__file__).parent
 JUDGED = ("state", "crosscheck")
 """Columns whose words are good or bad."""
 COLUMNS: dict[str, tuple[str, float]] = {
@@ -41,38 +40,28 @@ def write_summary_page(path: str | Path) -> str:
     counts: dict[str, int] = {}
     for row in rows:
         counts[row["state"]] = counts.get(row["state"], 0) + 1
-    words = ", ".join(f"{count} {state.replace('_', ' ')}" for state, count in counts.items())
-    checked = sum(row["crosscheck"] == "pass" for row in rows)
     columns = {name: item for name, item in COLUMNS.items() if rows and name in rows[0]}
-    head = "".join(
-        f'<th{" class=number" if factor else ""}><button type="button">{escape(text)}</button></th>'
-        for text, factor in (("design", 0), *columns.values())
+    return render(
+        "summary.html",
+        title="Summary",
+        counts=", ".join(f"{n} {state.replace('_', ' ')}" for state, n in counts.items()),
+        checked=sum(row["crosscheck"] == "pass" for row in rows),
+        columns=list(columns.values()),
+        rows=[(row["design"], _make_cells(row, columns)) for row in rows],
     )
-    body = "\n".join(_write_row(row, columns) for row in rows)
-    lead = (
-        f"{words}: {len(rows)} in all. The independent code agrees within its tolerances on "
-        f"{checked}. A click on a heading sorts; outside the report names lead to pages."
-    )
-    table = (
-        f'<div class="scroll"><table id="summary"><thead><tr>{head}</tr></thead>'
-        f"<tbody>\n{body}\n</tbody></table></div>"
-    )
-    script = f"<script>\n{_read('summary.js')}\n</script>"
-    return write_study_page("Summary", f"<p>{escape(lead)}</p>{table}{script}")
 
 
-def _write_row(row: Mapping[str, str], columns: Mapping[str, tuple[str, float]]) -> str:
-    name = escape(row["design"])
-    cells = [f'<td><a href="../{name}/page.html">{name}</a></td>']
+def _make_cells(row: Mapping[str, str], columns: Mapping[str, tuple[str, float]]) -> list[Cell]:
+    """Return a number, or a text with its class, for each column."""
+    cells = []
     for key, (_, factor) in columns.items():
         text = row[key]
         if factor and text:
-            value = factor * float(text)
-            cells.append(f'<td class="number" data-value="{value!r}">{format_number(value)}</td>')
+            cells.append(Cell(factor * float(text)))
         else:
             kind = _judge(text) if key in JUDGED else "number" if factor else ""
-            cells.append(f'<td class="{kind}">{escape(text.replace("_", " ") or "–")}</td>')
-    return f"<tr>{''.join(cells)}</tr>"
+            cells.append(Cell(text.replace("_", " ") or "–", kind))
+    return cells
 
 
 def _judge(text: str) -> str:
@@ -85,27 +74,23 @@ def _judge(text: str) -> str:
 def write_markdown_page(title: str, text: str) -> str:
     """Return the page of a Markdown text, whose first heading gives way to the title."""
     first, _, rest = text.partition("\n")
-    return write_study_page(title, render_markdown(rest if first.startswith("# ") else text))
+    words = render_markdown(rest if first.startswith("# ") else text)
+    return render("text.html", title=title, text=words)
 
 
 def write_settings_page(
     settings: Mapping[str, Any], settings_hash: str, versions: Mapping[str, str]
 ) -> str:
     """Return the page of the settings by group, and of the versions they were used with."""
-    parts = [f"<p>Hash of all settings that change results: <code>{settings_hash}</code>. Units: "
-             "m, kN, kPa, rad.</p>"]  # fmt: skip
-    for group, values in settings.items():
-        rows = [(".".join(path), _plain(value)) for path, value in _flatten(values)]
-        parts.append(f"<h2>{escape(group)}</h2>{make_table(('setting', 'value'), rows)}")
-    rows = sorted(versions.items())
-    parts.append(f"<h2>Versions</h2>{make_table(('program', 'version'), rows)}")
-    return write_study_page("Settings and versions", "\n".join(parts))
-
-
-def write_study_page(title: str, body: str) -> str:
-    """Return a page with the style of a design's page."""
-    content = f"<header><h1>{escape(title)}</h1></header>\n<main>\n{body}\n</main>"
-    return make_page(title, _read("page.css"), content)
+    header = ("setting", "value")
+    groups = [
+        (name, make_table(header, [(".".join(path), _plain(v)) for path, v in _flatten(values)]))
+        for name, values in settings.items()
+    ]
+    groups.append(("Versions", make_table(("program", "version"), sorted(versions.items()))))
+    return render(
+        "settings.html", title="Settings and versions", digest=settings_hash, groups=groups
+    )
 
 
 def _flatten(values: Any, path: tuple[str, ...] = ()) -> Sequence[tuple[tuple[str, ...], Any]]:
@@ -116,7 +101,3 @@ def _flatten(values: Any, path: tuple[str, ...] = ()) -> Sequence[tuple[tuple[st
 
 def _plain(value: Any) -> str:
     return ", ".join(map(str, value)) if isinstance(value, list | tuple) else str(value)
-
-
-def _read(name: str) -> str:
-    return (FOLDER / name).read_text(encoding="utf-8")

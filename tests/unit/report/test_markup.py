@@ -1,35 +1,54 @@
-"""HTML pieces: nothing that a file says can become markup or script."""
+"""Pieces of pages: nothing that a file says can become markup or script."""
 
 import json
 
 import pytest
+from markupsafe import Markup
 
 from foldshell.report.history_chart import Series, draw_history
 from foldshell.report.markdown import render_markdown
-from foldshell.report.markup import Cell, dump_json, format_number, make_page, make_table
+from foldshell.report.markup import Cell, format_number, make_table, render, templates
+from foldshell.report.sections import Box, Section
 
 EVIL = "</script><script>alert(1)</script>&\u2028\"'"
 
 
 def test_json_in_a_script_cannot_end_it():
     """No bracket of a tag remains, and the data comes back."""
-    text = dump_json({"name": EVIL})
+    text = templates().from_string("{{ data | tojson }}").render(data={"name": EVIL})
     assert "<" not in text
-    assert "\u2028" not in text
     assert json.loads(text) == {"name": EVIL}
 
 
 def test_json_refuses_what_browsers_cannot_read():
     """nan is no JSON."""
     with pytest.raises(ValueError, match="JSON"):
-        dump_json({"x": float("nan")})
+        templates().from_string("{{ data | tojson }}").render(data={"x": float("nan")})
 
 
-def test_tables_and_titles_are_escaped():
-    """The text is shown, not run."""
-    for html in (make_table(("a",), [(Cell(EVIL),)]), make_page(EVIL, "", "")):
-        assert "<script>" not in html
-        assert "&lt;script&gt;" in html
+def test_every_text_of_a_page_is_escaped():
+    """Whatever a template is given is shown, not run: title, words, boxes, tables, links."""
+    table = make_table((EVIL,), [(Cell(EVIL, "good"),)])
+    section = Section(EVIL, Box("bad", EVIL, EVIL, EVIL), EVIL, table, note=EVIL)
+    design = {"title": EVIL, "description": EVIL, "sections": [section], "links": {EVIL: EVIL},
+              "pictures": [{"words": EVIL, "path": EVIL, "data": EVIL}], "facts": {"name": EVIL},
+              "packed": "", "scripts": []}  # fmt: skip
+    summary = {"title": EVIL, "counts": EVIL, "checked": 0, "columns": [(EVIL, 0)],
+               "rows": [(EVIL, [Cell(EVIL)])]}  # fmt: skip
+    settings = {"title": EVIL, "digest": EVIL, "groups": [(EVIL, table)]}
+    for name, values, scripts in (("design", design, 3), ("summary", summary, 1),
+                                  ("settings", settings, 0),
+                                  ("text", {"title": EVIL, "text": EVIL}, 0)):  # fmt: skip
+        page = render(f"{name}.html", **values)
+        assert page.count("<script") == page.count("</script") == scripts
+        assert "&lt;script&gt;alert(1)" in page
+
+
+def test_a_missing_value_is_an_error_and_markup_stays():
+    """A template that asks for more than it is given does not leave a gap."""
+    with pytest.raises(Exception, match="'text' is undefined"):
+        render("text.html", title="a")
+    assert "<b>x</b>" in render("text.html", title="a", text=Markup("<b>x</b>"))
 
 
 @pytest.mark.parametrize(
@@ -60,7 +79,7 @@ def test_markdown_of_the_projects_files():
         "| a | b |\n|---|---|\n| 1 \\| 2 | <i> |\n\n- one\n  two\n- three\n"
     )
     assert "<h1>A</h1>" in html
-    assert "<p>text <code>x&lt;y</code> and <b>more</b> site</p>" in html
-    assert "<td>1 | 2</td><td>&lt;i&gt;</td>" in html
+    assert "<p>text <code>x&lt;y</code> and\n<strong>more</strong> site</p>" in html
+    assert "<td>1 | 2</td>\n<td>&lt;i&gt;</td>" in html
     assert html.count("<li>") == 2
     assert "http" not in html
