@@ -32,15 +32,15 @@ def main(
     `settings` are the parameters of stages `size` and `figures`, report_path is final.json."""
     files = mesh_path, folded_path, final_path, report_path
     state = read_state(design, *files, settings["combinations"], classes_path)
-    subject = view_design(state, settings, span_m, pattern)
+    view = view_design(state, settings, span_m, pattern)
     combinations = settings["combinations"]["strength"] | settings["combinations"]["deflection"]
     material = settings["material"]
     known = Material(**material) if "criterion" in material else None
-    write_design_vtu(vtu_path, state, subject.elasticity, known, combinations)
-    write_lines_vtu(lines_path, subject)
+    write_design_vtu(vtu_path, state, view.elasticity, known, combinations)
+    write_lines_vtu(lines_path, view)
     figures = settings["figures"]
     size = (figures["width_px"], figures["height_px"])
-    for name, picture in draw_design(subject, size, tuple(pictures)).items():
+    for name, picture in draw_design(view, size, tuple(pictures)).items():
         save_png(pictures[name], picture)
 
 

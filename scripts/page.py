@@ -8,7 +8,7 @@ from foldshell.engine.job import run_job
 from foldshell.files.whole import atomic_path
 from foldshell.report.page import write_design_page
 from foldshell.report.sections import read_files
-from foldshell.report.view import make_view
+from foldshell.report.viewer_data import make_viewer_data
 from foldshell.results.design_view import view_design
 from foldshell.results.state import read_state
 
@@ -37,10 +37,10 @@ def main(
     state_paths = [paths[name] for name in ARRAYS]
     combinations, name = settings["combinations"], design["design"]
     state = read_state(name, *state_paths, combinations, paths["class_arrays"])
-    subject = view_design(state, settings, design["span_m"], design["pattern"])
+    view = view_design(state, settings, design["span_m"], design["pattern"])
     files = read_files(design, paths)
-    limit = subject.limits.utilization_max
-    page = write_design_page(files, make_view(subject), pictures, limit)
+    limit = view.limits.utilization_max
+    page = write_design_page(files, make_viewer_data(view), pictures, limit)
     with atomic_path(page_path) as temporary:
         temporary.write_text(page, encoding="utf-8")
 

@@ -16,7 +16,7 @@ import size
 import start
 from foldshell.files.whole import read_arrays, read_json, write_arrays
 from foldshell.report.arrays import pack_arrays, unpack_arrays
-from foldshell.report.view import make_view
+from foldshell.report.viewer_data import make_viewer_data
 from foldshell.results.design_view import view_design
 from foldshell.results.state import read_state
 from foldshell.results.summary import make_summary_row
@@ -141,7 +141,7 @@ def test_page_shows_the_edge_beam(folder):
     loop = folder / "sizing"
     inputs = [folder / "mesh.npz", folder / "folded.npz", loop / "final.npz", loop / "final.json"]
     state = read_state("small", *inputs, stage("size")["combinations"], loop / "classes.npz")
-    view = make_view(view_design(state, stage("size"), SPAN, "miura"))
+    view = make_viewer_data(view_design(state, stage("size"), SPAN, "miura"))
     arrays = unpack_arrays(*pack_arrays(view.arrays))
     beam = slice(PANELS, PANELS + BEAM_PANELS)
     known = read_arrays(loop / "final.npz")["edge_beam_utilization_panel_mean"]

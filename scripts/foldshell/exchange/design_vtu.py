@@ -123,13 +123,13 @@ def write_design_vtu(
     write_vtu(path, state.cells.nodes, state.triangles, points, fields, words)
 
 
-def write_lines_vtu(path: str | Path, subject: DesignView) -> None:
+def write_lines_vtu(path: str | Path, view: DesignView) -> None:
     """Write design_lines.vtu: principal stress lines and utilization isolines as two-point cells.
 
     Cell fields: kind (1 and 2: trajectories of n1 and n2; 3: isoline), force [kN/m] (tension
     positive, nan on isolines), utilization [-] (nan on principal stress lines).
     """
-    parts = [*_force_parts(subject), *_isoline_parts(subject)]
+    parts = [*_force_parts(view), *_isoline_parts(view)]
     segments = np.concatenate([np.empty((0, 2, 3)), *(part[0] for part in parts)])
     kind, force, level = np.concatenate([np.empty((3, 0)), *(part[1] for part in parts)], axis=1)
     data = {"kind": kind.astype(np.int32), "force": force, "utilization": level}
@@ -137,21 +137,21 @@ def write_lines_vtu(path: str | Path, subject: DesignView) -> None:
     write_vtu(path, segments.reshape(-1, 3), cells, {}, data)
 
 
-def _force_parts(subject: DesignView) -> list[tuple[np.ndarray, np.ndarray]]:
+def _force_parts(view: DesignView) -> list[tuple[np.ndarray, np.ndarray]]:
     """Return segments (S, 2, 3) and rows kind, force, utilization (3, S) of each family."""
     parts = []
-    for family in (0, 1) if subject.state.usable else ():
-        lines = [line for line in subject.principal_stress_lines[1] if line.family == family]
+    for family in (0, 1) if view.state.usable else ():
+        lines = [line for line in view.principal_stress_lines[1] if line.family == family]
         segments, force = split_lines(lines)
         kind = np.full(len(force), family + 1.0)
         parts.append((segments, np.stack([kind, force, np.full(len(force), np.nan)])))
     return parts
 
 
-def _isoline_parts(subject: DesignView) -> list[tuple[np.ndarray, np.ndarray]]:
-    if subject.state.utilization is None:
+def _isoline_parts(view: DesignView) -> list[tuple[np.ndarray, np.ndarray]]:
+    if view.state.utilization is None:
         return []
     return [
         (segments, np.repeat([[3.0], [np.nan], [level]], len(segments), axis=1))
-        for level, segments in utilization_isolines(subject)
+        for level, segments in utilization_isolines(view)
     ]

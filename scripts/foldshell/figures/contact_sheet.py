@@ -33,13 +33,13 @@ class Tile:
     utilization: np.ndarray | None
 
 
-def make_tile(subject: DesignView) -> Tile:
+def make_tile(view: DesignView) -> Tile:
     """Return what the sheet needs of a design, so that the rest can be forgotten."""
-    state = subject.state
-    lines, _ = crease_lines(subject, state.cells.nodes)
+    state = view.state
+    lines, _ = crease_lines(view, state.cells.nodes)
     lines = tuple(replace(line, width=0.45 * line.width) for line in lines)
     blank = np.tile(np.array(MISSING, dtype=np.uint8), (len(state.triangles), 1))
-    scene = Scene(state.cells.nodes, state.triangles, blank, lines, *support_marks(subject))
+    scene = Scene(state.cells.nodes, state.triangles, blank, lines, *support_marks(view))
     thickness = 1e3 * state.panel_thickness[state.cell_panel]
     verdict = str(state.report.get("verdict")).replace("_", " ")
     return Tile(state.name, verdict, scene, thickness, state.utilization)

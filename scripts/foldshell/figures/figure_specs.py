@@ -27,7 +27,7 @@ class FigureSpec:
 
 
 def specify_field(
-    subject: DesignView,
+    view: DesignView,
     title: str,
     facts: str,
     quantity: str,
@@ -39,12 +39,12 @@ def specify_field(
     keys: tuple[Key, ...] = (),
 ) -> FigureSpec:
     """Return the sheet coloured by values of its cells (C,) or nodes (N,)."""
-    state = subject.state
+    state = view.state
     points = state.cells.nodes if points is None else points
-    lines, line_keys = crease_lines(subject, points)
+    lines, line_keys = crease_lines(view, points)
     scene = Scene(
         points, state.triangles, scale.colour(values), (*lines, *extra),
-        *support_marks(subject),
+        *support_marks(view),
     )  # fmt: skip
     all_keys = (*line_keys, *keys, Key("support", "pinned edges"))
     words = (facts, describe_verdict(state.report))
@@ -53,12 +53,12 @@ def specify_field(
     )
 
 
-def specify_nothing(subject: DesignView, title: str, words: str) -> FigureSpec:
+def specify_nothing(view: DesignView, title: str, words: str) -> FigureSpec:
     """Return the grey sheet with words that say what is missing."""
-    state = subject.state
-    lines, keys = crease_lines(subject, state.cells.nodes)
+    state = view.state
+    lines, keys = crease_lines(view, state.cells.nodes)
     colours = np.tile(np.array(MISSING, dtype=np.uint8), (len(state.triangles), 1))
-    scene = Scene(state.cells.nodes, state.triangles, colours, lines, *support_marks(subject))
+    scene = Scene(state.cells.nodes, state.triangles, colours, lines, *support_marks(view))
     verdict = describe_verdict(state.report)
     keys = (*keys, Key("support", "pinned edges"))
     return FigureSpec(scene, Caption(f"{title}: {state.name}", (words, verdict), keys=keys))
@@ -70,13 +70,11 @@ def describe_verdict(report: Mapping[str, Any]) -> str:
     return f"{words}: {report['reason']}" if report.get("reason") else words
 
 
-def crease_lines(
-    subject: DesignView, points: np.ndarray
-) -> tuple[tuple[Lines, ...], tuple[Key, ...]]:
+def crease_lines(view: DesignView, points: np.ndarray) -> tuple[tuple[Lines, ...], tuple[Key, ...]]:
     """Return mountains as lines, valleys as dashes, other panel borders thin, and their keys."""
-    creases = subject.creases
-    dashes = cut_dashes(points[creases.valley], subject.size / 90)
-    width = 2.5 * min(1.0, (DENSE / len(subject.state.final["thickness"])) ** 0.5)
+    creases = view.creases
+    dashes = cut_dashes(points[creases.valley], view.size / 90)
+    width = 2.5 * min(1.0, (DENSE / len(view.state.final["thickness"])) ** 0.5)
     lines = (
         Lines(points[creases.border], INK, 0.8 * width),
         Lines(points[creases.flat], SOFT, 0.4 * width),
@@ -89,17 +87,17 @@ def crease_lines(
     return lines, tuple(keys)
 
 
-def support_marks(subject: DesignView) -> tuple[np.ndarray, float]:
+def support_marks(view: DesignView) -> tuple[np.ndarray, float]:
     """Return the vertices on supported edges (S, 3) m, and the size of their marks, m."""
-    state = subject.state
+    state = view.state
     vertices = np.unique(state.shell["support_pairs"])
-    return state.shell["vertices"][vertices], subject.size / 60
+    return state.shell["vertices"][vertices], view.size / 60
 
 
-def lines_before(subject: DesignView) -> Lines:
+def lines_before(view: DesignView) -> Lines:
     """Return the undisplaced creases, of a dense sheet the border alone."""
-    creases = subject.creases
+    creases = view.creases
     kinds = [creases.border]
-    if len(subject.state.final["thickness"]) <= DENSE:
+    if len(view.state.final["thickness"]) <= DENSE:
         kinds += [creases.mountain, creases.valley, creases.flat]
-    return Lines(subject.state.cells.nodes[np.concatenate(kinds)], (150, 150, 150), 1.5, 0.0)
+    return Lines(view.state.cells.nodes[np.concatenate(kinds)], (150, 150, 150), 1.5, 0.0)

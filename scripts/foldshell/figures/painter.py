@@ -56,10 +56,10 @@ def _triangles(scene: Scene, camera: Camera, size: tuple[int, int]) -> tuple[lis
     corner = scene.points[scene.triangles]
     middle = corner.mean(axis=1)
     normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
-    view = camera.eye - middle
-    depth = np.linalg.norm(view, axis=1)
+    ray = camera.eye - middle
+    depth = np.linalg.norm(ray, axis=1)
     length = np.linalg.norm(normal, axis=1) * depth
-    facing = np.abs(np.einsum("ij,ij->i", normal, view)) / np.where(length > 0, length, 1)
+    facing = np.abs(np.einsum("ij,ij->i", normal, ray)) / np.where(length > 0, length, 1)
     own = scene.colours.astype(float)
     if len(own) != len(corner):
         own = own[scene.triangles].mean(axis=1)

@@ -38,30 +38,30 @@ LIMIT_WIDTH = 3.5
 
 
 def draw_design(
-    subject: DesignView, size: tuple[int, int], names: Sequence[str]
+    view: DesignView, size: tuple[int, int], names: Sequence[str]
 ) -> dict[str, Image.Image]:
     """Return the named pictures (`PICTURES`) of a design, each of the given size in pixels."""
-    specs = {name: PICTURES[name](subject) for name in names}
-    view = view_size(size)
-    cameras = [_aim(spec, view) for spec in specs.values()]
-    images = render_scenes([spec.scene for spec in specs.values()], cameras, view)
+    specs = {name: PICTURES[name](view) for name in names}
+    frame = view_size(size)
+    cameras = [_aim(spec, frame) for spec in specs.values()]
+    images = render_scenes([spec.scene for spec in specs.values()], cameras, frame)
     return {
         name: compose(image, spec.caption, camera.axes()[:2].T, size)
         for (name, spec), image, camera in zip(specs.items(), images, cameras, strict=True)
     }
 
 
-def _aim(spec: FigureSpec, view: tuple[int, int]) -> Camera:
+def _aim(spec: FigureSpec, frame: tuple[int, int]) -> Camera:
     scene = spec.scene
     points = [scene.points, *(lines.points.reshape(-1, 3) for lines in scene.lines)]
     if scene.supports is not None:
         points.append(scene.supports - (0, 0, scene.support_size))
-    return fit_camera(np.concatenate(points), view[0] / view[1], spec.direction)
+    return fit_camera(np.concatenate(points), frame[0] / frame[1], spec.direction)
 
 
-def specify_thickness(subject: DesignView) -> FigureSpec:
+def specify_thickness(view: DesignView) -> FigureSpec:
     """Panels coloured by thickness."""
-    state = subject.state
+    state = view.state
     values, panels = 1e3 * state.panel_thickness, 1e3 * state.final["thickness"]
     scale = make_scale(values, "YlGnBu")
     volume, area = state.report["volume_m3"], state.report["area_m2"]
@@ -71,7 +71,7 @@ def specify_thickness(subject: DesignView) -> FigureSpec:
         f"volume {volume:.4g} m³, {1e3 * volume / area:.0f} mm on average"
     )
     return specify_field(
-        subject, "Thickness", facts, "thickness [mm]", values[state.cell_panel], scale
+        view, "Thickness", facts, "thickness [mm]", values[state.cell_panel], scale
     )
 
 
@@ -81,11 +81,11 @@ def _describe_edge_beam(state: DesignState) -> str:
     return f", edge beam {edge_beam.max():.0f} mm" if len(edge_beam) else ""
 
 
-def specify_classes(subject: DesignView) -> FigureSpec:
+def specify_classes(view: DesignView) -> FigureSpec:
     """Panels coloured by the thickness of their class, on the scale of the picture thickness."""
-    state = subject.state
+    state = view.state
     if not state.classes:
-        return specify_nothing(subject, "Thickness classes", "no thickness classes")
+        return specify_nothing(view, "Thickness classes", "no thickness classes")
     number = state.classes["panel_class"]
     panels = 1e3 * state.classes["thickness"]
     words = [
@@ -95,17 +95,15 @@ def specify_classes(subject: DesignView) -> FigureSpec:
     values = np.append(panels, 1e3 * state.edge_beam_thickness)
     scale = make_scale(np.append(values, 1e3 * state.final["thickness"]), "YlGnBu")
     title, quantity = "Thickness classes", "thickness of the class [mm]"
-    return specify_field(
-        subject, title, "; ".join(words), quantity, values[state.cell_panel], scale
-    )
+    return specify_field(view, title, "; ".join(words), quantity, values[state.cell_panel], scale)
 
 
-def specify_utilization(subject: DesignView) -> FigureSpec:
+def specify_utilization(view: DesignView) -> FigureSpec:
     """Cells coloured by their largest utilization; what is above the limit stands out."""
-    state, limit = subject.state, subject.limits.utilization_max
+    state, limit = view.state, view.limits.utilization_max
     values = state.utilization
     if values is None:
-        return specify_nothing(subject, "Utilization", "no utilization")
+        return specify_nothing(view, "Utilization", "no utilization")
     scale = make_limit_scale(values, limit)
     report = state.report
     facts = (
@@ -121,59 +119,59 @@ def specify_utilization(subject: DesignView) -> FigureSpec:
     width = LIMIT_WIDTH * min(1.0, DENSE / len(state.final["thickness"]))
     border = state.cells.nodes[find_region_border(state.triangles, values > limit)]
     return specify_field(
-        subject, "Utilization", facts, words, values, scale, above,
+        view, "Utilization", facts, words, values, scale, above,
         extra=(Lines(border, INK, width, 1.2 * LIFT),),
         keys=(Key("area", f"above {limit:g}, outlined", ABOVE),) if len(border) else (),
     )  # fmt: skip
 
 
-def specify_displacement(subject: DesignView) -> FigureSpec:
+def specify_displacement(view: DesignView) -> FigureSpec:
     """The displaced sheet, coloured by downward displacement, over its undisplaced creases."""
-    state = subject.state
+    state = view.state
     if not state.usable:
-        return specify_nothing(subject, "Displacement", "no displacement")
+        return specify_nothing(view, "Displacement", "no displacement")
     name = choose_deflection(state)
     moved = state.displacement_at_nodes(name)
-    factor = exaggeration(moved, subject.span)
+    factor = exaggeration(moved, view.span)
     down = -1e3 * moved[:, 2]
-    limit = 1e3 * subject.span / subject.limits.displacement_limit_span_over
+    limit = 1e3 * view.span / view.limits.displacement_limit_span_over
     order = "" if state.report.get("state") in ("ok", None) else "first order, "
     facts = (
         f"{name}: {order}at most {down.max():.1f} mm down (limit {limit:.1f} mm); "
         f"drawn {factor:g} times as large"
     )
     quantity = "vertical displacement, down [mm]"
-    before = lines_before(subject)
+    before = lines_before(view)
     return specify_field(
-        subject, "Displacement", facts, quantity, down, make_scale(down, "cividis"),
+        view, "Displacement", facts, quantity, down, make_scale(down, "cividis"),
         points=state.cells.nodes + factor * moved, extra=(before,),
         keys=(Key("solid", "undisplaced", before.colour),),
     )  # fmt: skip
 
 
-def specify_planarity(subject: DesignView) -> FigureSpec:
+def specify_planarity(view: DesignView) -> FigureSpec:
     """Panels coloured by the distance between their diagonals (Fig. 9)."""
-    state = subject.state
+    state = view.state
     values = 100 * state.folded["planarity"]
     facts = f"at most {values.max():.2f} %, mean {values.mean():.2f} % (0: panel is planar)"
     values = np.append(values, np.zeros_like(state.edge_beam_thickness))
     quantity = "distance of diagonals / their mean length [%]"
     scale = make_scale(values, zero=True, least=RATIO_RANGE_MIN)
-    return specify_field(subject, "Planarity", facts, quantity, values[state.cell_panel], scale)
+    return specify_field(view, "Planarity", facts, quantity, values[state.cell_panel], scale)
 
 
-def specify_strain(subject: DesignView) -> FigureSpec:
+def specify_strain(view: DesignView) -> FigureSpec:
     """Facets coloured by the largest strain of their sides in folding: what the paper must give."""
-    state = subject.state
+    state = view.state
     if "strain" not in state.folded:
-        return specify_nothing(subject, "Folding strain", "no strain of the folding")
+        return specify_nothing(view, "Folding strain", "no strain of the folding")
     values = 100 * state.folded["strain"]
     facts = f"at most {values.max():.2f} %, mean {values.mean():.2f} % (0: sides keep their length)"
     values = np.append(values, np.zeros(2 * len(state.edge_beam_thickness)))
     quantity = "largest change of a facet's sides / flat length [%]"
     scale = make_scale(values, "cividis", zero=True, least=RATIO_RANGE_MIN)
     cells = np.repeat(values[state.mesh.facet], state.cells.order**2)
-    return specify_field(subject, "Folding strain", facts, quantity, cells, scale)
+    return specify_field(view, "Folding strain", facts, quantity, cells, scale)
 
 
 PICTURES: dict[str, Callable[[DesignView], FigureSpec]] = {

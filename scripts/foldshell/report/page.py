@@ -10,7 +10,7 @@ from PIL import Image
 from foldshell.report.arrays import pack_arrays
 from foldshell.report.markup import render
 from foldshell.report.sections import DesignFiles, describe_design, make_sections
-from foldshell.report.view import View
+from foldshell.report.viewer_data import ViewerData
 
 SCRIPTS = ("data.js", "renderer.js", "camera.js", "viewer.js")
 SIZE_MAX = 1_400_000
@@ -34,7 +34,7 @@ FILES = {
 
 def write_design_page(
     files: DesignFiles,
-    view: View,
+    viewer: ViewerData,
     pictures: Mapping[str, str | Path],
     utilization_max: float,
 ) -> str:
@@ -43,13 +43,13 @@ def write_design_page(
     `pictures` are PNG files by name.
     """
     shown = [show_picture(name, path) for name, path in pictures.items() if name in SHOWN]
-    headers, packed = pack_arrays(view.arrays)
+    headers, packed = pack_arrays(viewer.arrays)
     values = {
         "title": files.design["design"],
         "description": describe_design(files.design),
         "sections": make_sections(files, utilization_max),
         "links": FILES | _link_pictures(pictures),
-        "facts": view.facts | {"arrays": headers},
+        "facts": viewer.facts | {"arrays": headers},
         "packed": packed,
         "scripts": SCRIPTS,
     }

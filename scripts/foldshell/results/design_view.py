@@ -80,7 +80,7 @@ def read_limits(settings: Mapping[str, Any]) -> Limits:
 def view_design(
     state: DesignState, settings: Mapping[str, Any], span: float, pattern: str
 ) -> DesignView:
-    """Return the subject of a design with the plain settings of stage `size`; span m."""
+    """Return the view of a design with the plain settings of stage `size`; span m."""
     material = settings["material"]
     elasticity = Elasticity(material["youngs_modulus"], material["poissons_ratio"])
     return make_design_view(state, span, read_limits(settings), elasticity, pattern != "smooth")

@@ -57,13 +57,13 @@ def find_isolines(corners: np.ndarray, values: np.ndarray, level: float) -> np.n
     return np.stack(ends, axis=1)
 
 
-def utilization_isolines(subject: DesignView) -> list[tuple[float, np.ndarray]]:
+def utilization_isolines(view: DesignView) -> list[tuple[float, np.ndarray]]:
     """Return levels, equally spaced from 0, and their segments (S, 2, 3) m."""
-    state = subject.state
+    state = view.state
     corners = state.cells.nodes[state.triangles]
     values = panel_node_values(
         state.utilization, state.triangles, state.cell_panel, cell_area(state)
     )
-    scale = make_limit_scale(values, subject.limits.utilization_max)
+    scale = make_limit_scale(values, view.limits.utilization_max)
     levels = np.linspace(scale.low, scale.high, ISOLINES + 1)[1:]
     return [(float(level), find_isolines(corners, values, level)) for level in levels]

@@ -120,8 +120,8 @@ def test_lines_carry_force_and_level(tmp_path):
         folded=False,
         move=lambda x: np.column_stack([1e-3 * x[:, 0], -1e-3 * x[:, 1], 0 * x[:, 0]]),
     )
-    subject = make_design_view(state, 5.0, Limits(), ELASTICITY)
-    write_lines_vtu(tmp_path / "lines.vtu", subject)
+    view = make_design_view(state, 5.0, Limits(), ELASTICITY)
+    write_lines_vtu(tmp_path / "lines.vtu", view)
     points, cells, fields, _ = read(tmp_path / "lines.vtu")
     step = points[cells[:, 1]] - points[cells[:, 0]]
     first, second = fields["kind"] == 1, fields["kind"] == 2
@@ -136,6 +136,6 @@ def test_lines_carry_force_and_level(tmp_path):
 def test_unstable_design_has_no_lines(tmp_path):
     """The file is there, with no cell in it."""
     state = make_state(tmp_path, utilization=None, move=lambda x: np.nan * x)
-    subject = make_design_view(state, 5.0, Limits(), ELASTICITY)
-    write_lines_vtu(tmp_path / "lines.vtu", subject)
+    view = make_design_view(state, 5.0, Limits(), ELASTICITY)
+    write_lines_vtu(tmp_path / "lines.vtu", view)
     assert 'NumberOfCells="0"' in (tmp_path / "lines.vtu").read_text()

@@ -19,8 +19,8 @@ SIZE = (480, 330)
 
 def scene_of(folder, spec=specify_thickness):
     """Return the scene of a small folded sheet."""
-    subject = make_design_view(make_state(folder), 5.0, Limits(), Elasticity(31e6, 0.2))
-    return spec(subject).scene
+    view = make_design_view(make_state(folder), 5.0, Limits(), Elasticity(31e6, 0.2))
+    return spec(view).scene
 
 
 @pytest.mark.skipif(not render.has_opengl(), reason="no OpenGL to compare with")

@@ -30,7 +30,7 @@ LIMITS, ELASTICITY = Limits(1.0, 240.0), Elasticity(31e6, 0.2)
 
 
 def subject_of(folder, **options):
-    """Return a case as the subject of pictures."""
+    """Return a case as the view of pictures."""
     return make_design_view(make_state(folder, **options), 5.0, LIMITS, ELASTICITY)
 
 
@@ -93,18 +93,18 @@ def test_second_scene_is_not_the_first_again():
 
 def test_same_state_same_bytes(tmp_path):
     """A picture is the same file when it is drawn again."""
-    subject = subject_of(tmp_path)
+    view = subject_of(tmp_path)
     for name in ("a", "b"):
-        picture = draw_design(subject, SIZE, ("thickness",))["thickness"]
+        picture = draw_design(view, SIZE, ("thickness",))["thickness"]
         save_png(tmp_path / f"{name}.png", picture)
     assert (tmp_path / "a.png").read_bytes() == (tmp_path / "b.png").read_bytes()
 
 
 def test_displaced_shape_is_drawn_by_its_stated_factor(tmp_path):
     """w = -1e-3 x2: points of the scene are nodes plus factor times that, and the words say so."""
-    subject = subject_of(tmp_path)
-    spec = specify_displacement(subject)
-    nodes = subject.state.cells.nodes
+    view = subject_of(tmp_path)
+    spec = specify_displacement(view)
+    nodes = view.state.cells.nodes
     drop = 1e-3 * nodes[:, 0] ** 2
     factor = exaggeration(np.column_stack([drop, 0 * drop, 0 * drop]), 5.0)
     assert 0.03 * 5 < factor * drop.max() < 0.12 * 5
@@ -116,13 +116,13 @@ def test_displaced_shape_is_drawn_by_its_stated_factor(tmp_path):
 
 def test_tension_and_compression_have_their_colours(tmp_path):
     """A flat sheet stretched along x and shortened along y: lines of both colours."""
-    subject = subject_of(
+    view = subject_of(
         tmp_path,
         folded=False,
         move=lambda x: np.column_stack([1e-3 * x[:, 0], -1e-3 * x[:, 1], 0 * x[:, 0]]),
     )
-    lines = {line.colour: 0 for line in specify_principal_stress_lines(subject).scene.lines}
-    for line in specify_principal_stress_lines(subject).scene.lines:
+    lines = {line.colour: 0 for line in specify_principal_stress_lines(view).scene.lines}
+    for line in specify_principal_stress_lines(view).scene.lines:
         lines[line.colour] += len(line.points)
         if line.colour in (TENSION, COMPRESSION) and len(line.points):
             step = np.abs(line.points[:, 1] - line.points[:, 0])
@@ -140,28 +140,28 @@ def test_sheet_that_carries_by_bending_has_no_force_lines(tmp_path):
 
 def test_design_without_results_says_what_is_missing(tmp_path):
     """An unstable design: thickness is drawn, the others say why they are empty."""
-    subject = subject_of(
+    view = subject_of(
         tmp_path, utilization=None, move=lambda x: np.nan * x, verdict="unstable",
         reason="buckling factor 0.7 of S1 is below 1", buckling_factor={"S1": None},
     )  # fmt: skip
-    assert specify_utilization(subject).caption.lines[0] == "no utilization"
-    assert specify_displacement(subject).caption.lines[0] == "no displacement"
-    assert specify_isolines(subject).caption.lines[0] == "no utilization"
-    assert specify_buckling(subject).caption.lines[0] == "no buckling mode"
-    assert "no membrane forces" in specify_principal_stress_lines(subject).caption.lines[0]
+    assert specify_utilization(view).caption.lines[0] == "no utilization"
+    assert specify_displacement(view).caption.lines[0] == "no displacement"
+    assert specify_isolines(view).caption.lines[0] == "no utilization"
+    assert specify_buckling(view).caption.lines[0] == "no buckling mode"
+    assert "no membrane forces" in specify_principal_stress_lines(view).caption.lines[0]
     for spec in (specify_thickness, specify_displacement):
-        assert spec(subject).caption.lines[-1] == (
+        assert spec(view).caption.lines[-1] == (
             "unstable after 4 analyses: buckling factor 0.7 of S1 is below 1"
         )
 
 
 def test_buckling_mode_is_that_of_the_least_factor(tmp_path):
     """S2 has the least factor, 2.0; the mode is scaled to 1, zero at supported nodes."""
-    subject = subject_of(tmp_path)
-    assert specify_buckling(subject).caption.lines[0].startswith("S2: buckling factor 2.00")
-    mode = subject.state.buckling_mode("S2")
+    view = subject_of(tmp_path)
+    assert specify_buckling(view).caption.lines[0].startswith("S2: buckling factor 2.00")
+    mode = view.state.buckling_mode("S2")
     assert np.linalg.norm(mode, axis=1).max() == pytest.approx(1)
-    vertices = np.unique(subject.state.shell["support_pairs"])
+    vertices = np.unique(view.state.shell["support_pairs"])
     assert np.abs(mode[vertices]).max() < 1e-12  # interpolated from the nodes: rounding is left
 
 
@@ -193,10 +193,10 @@ def test_words_do_not_cover_the_view():
 
 def test_strain_stands_in_its_facet(tmp_path):
     """Strain rises from facet to facet; the cells of a facet have its colour, others have not."""
-    subject = subject_of(tmp_path)
-    spec = specify_strain(subject)
+    view = subject_of(tmp_path)
+    spec = specify_strain(view)
     scale = spec.caption.scale
-    facet = np.repeat(subject.state.mesh.facet, subject.state.cells.order**2)
+    facet = np.repeat(view.state.mesh.facet, view.state.cells.order**2)
     expected = scale.colour(100 * np.linspace(0, 0.02, 40))[facet]
     assert np.array_equal(spec.scene.colours, expected)
     assert scale.high == pytest.approx(2.0)

@@ -28,34 +28,34 @@ CELLS_MAX = 40_000
 
 
 @dataclass(frozen=True)
-class View:
+class ViewerData:
     """Arrays for `pack_arrays`, and what the page must know about them as plain data."""
 
     arrays: dict[str, np.ndarray]
     facts: dict[str, Any]
 
 
-def make_view(subject: DesignView) -> View:
+def make_viewer_data(view: DesignView) -> ViewerData:
     """Return the view of a design; fields and shapes that its state lacks are left out.
 
     Arrays: nodes (N, 3) m; triangles (C, 3); panel (C,); mountain, valley, flat, border (K, n)
     nodes along creases; supports (S,) nodes; of each panel thickness (m), utilization, planarity,
     zigzag and strip; and those that `facts["fields"]` and `facts["shapes"]` name.
     """
-    state, grid = subject.state, _make_grid(subject)
+    state, grid = view.state, _make_grid(view)
     arrays = {"nodes": grid.nodes, "triangles": grid.triangles, "panel": grid.panel}
     arrays |= {f"crease_{kind}": nodes for kind, nodes in grid.creases.items()}
     arrays |= {"supports": grid.supports} | _panel_values(state)
     fields, values = [], {}
-    for name, (words, array, scale, options) in _fields(subject, grid).items():
+    for name, (words, array, scale, options) in _fields(view, grid).items():
         values[f"field_{name}"] = array
         fields.append({"name": name, "words": words} | _describe_scale(scale) | options)
     shapes = []
-    for name, words, moved, factor in _shapes(subject, grid):
+    for name, words, moved, factor in _shapes(view, grid):
         values[f"shape_{name}"] = moved
         shapes.append({"name": name, "words": words, "factor": factor})
     facts = {"fields": fields, "shapes": shapes}
-    return View(arrays | values, facts)
+    return ViewerData(arrays | values, facts)
 
 
 @dataclass(frozen=True)
@@ -78,12 +78,12 @@ class _Grid:
         return values[: len(self.nodes)]
 
 
-def _make_grid(subject: DesignView) -> _Grid:
+def _make_grid(view: DesignView) -> _Grid:
     """Return the result cells, or the facets alone of a sheet of very many.
 
     The first nodes of a mesh are the sheet's vertices, and cells follow facet by facet.
     """
-    state, creases = subject.state, subject.creases
+    state, creases = view.state, view.creases
     kinds = {kind: getattr(creases, kind) for kind in ("mountain", "valley", "flat", "border")}
     pairs = state.shell["support_pairs"]
     if len(state.triangles) <= CELLS_MAX:
@@ -119,14 +119,14 @@ def _pad(state: DesignState, values: np.ndarray) -> np.ndarray:
     return np.append(values, np.full(len(state.edge_beam_thickness), np.nan))
 
 
-def _fields(subject: DesignView, grid: _Grid) -> dict[str, tuple]:
+def _fields(view: DesignView, grid: _Grid) -> dict[str, tuple]:
     """Return words with unit, values at panels, triangles or nodes, scale, options by name."""
-    state = subject.state
+    state = view.state
     thickness = 1e3 * state.panel_thickness
     scale = make_scale(thickness, "YlGnBu")
     fields = {"thickness": ("thickness [mm]", thickness, scale, {"at": "panel"})}
     if state.utilization is not None:
-        fields |= _utilization_fields(subject, grid)
+        fields |= _utilization_fields(view, grid)
     if state.usable:
         name = choose_deflection(state)
         down = -1e3 * grid.at_nodes(state.displacement_at_nodes(name))[:, 2]
@@ -141,8 +141,8 @@ def _fields(subject: DesignView, grid: _Grid) -> dict[str, tuple]:
     return fields
 
 
-def _utilization_fields(subject: DesignView, grid: _Grid) -> dict[str, tuple]:
-    state, limit = subject.state, subject.limits.utilization_max
+def _utilization_fields(view: DesignView, grid: _Grid) -> dict[str, tuple]:
+    state, limit = view.state, view.limits.utilization_max
     combinations = f"{state.strength[0]} to {state.strength[-1]}"
     found = {}
     for name, words, values, at in (
@@ -187,18 +187,18 @@ def _describe_scale(scale: ColourScale) -> dict[str, Any]:
     }
 
 
-def _shapes(subject: DesignView, grid: _Grid) -> list[tuple[str, str, np.ndarray, float]]:
+def _shapes(view: DesignView, grid: _Grid) -> list[tuple[str, str, np.ndarray, float]]:
     """Return name, words, translations (N, 3) m and their factor in the middle of the slider."""
-    state, shapes = subject.state, []
+    state, shapes = view.state, []
     if state.usable:
         name = choose_deflection(state)
         moved = grid.at_nodes(state.displacement_at_nodes(name))
         shapes.append(("displacement", f"displacement of {name}", moved,
-                       exaggeration(moved, subject.span)))  # fmt: skip
+                       exaggeration(moved, view.span)))  # fmt: skip
     least = choose_buckling(state)
     if least is not None:
         name, factor = least
         mode = grid.at_nodes(state.buckling_mode(name))
         words = f"buckling mode of {name}, factor {factor:.2f}"
-        shapes.append(("buckling", words, mode, MODE_SHARE * subject.span))
+        shapes.append(("buckling", words, mode, MODE_SHARE * view.span))
     return shapes

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from figure_cases import PANELS
-from foldshell.report import view
+from foldshell.report import viewer_data
 from foldshell.report.arrays import pack_arrays, unpack_arrays
-from foldshell.report.view import make_view
+from foldshell.report.viewer_data import make_viewer_data
 from foldshell.results.design_view import Elasticity, Limits, make_design_view
 from foldshell.results.state import read_state
 from report_cases import SETTINGS, write_files
@@ -17,7 +17,9 @@ def view_of(folder, folded=True, **options):
     paths, _ = write_files(folder, **options)
     files = [paths[name] for name in ("mesh", "folded", "arrays", "final")]
     state = read_state("case", *files, SETTINGS["combinations"], paths["class_arrays"])
-    return make_view(make_design_view(state, 5.0, Limits(), Elasticity(31e6, 0.2), folded)), state
+    return make_viewer_data(
+        make_design_view(state, 5.0, Limits(), Elasticity(31e6, 0.2), folded)
+    ), state
 
 
 def test_every_field_is_there(tmp_path):
@@ -31,7 +33,7 @@ def test_every_field_is_there(tmp_path):
         assert len(found.arrays[f"field_{field['name']}"]) == counts[field["at"]]
         assert field["low"] < field["high"]
         assert "[" in field["words"] or field["name"] == "class"
-        assert len(bytes.fromhex(field["colours"])) == 3 * view.COLOURS
+        assert len(bytes.fromhex(field["colours"])) == 3 * viewer_data.COLOURS
     assert [shape["name"] for shape in found.facts["shapes"]] == ["displacement", "buckling"]
     assert {f"crease_{kind}" for kind in ("mountain", "valley", "flat", "border")} < set(
         found.arrays
@@ -78,10 +80,10 @@ def test_smooth_sheets_have_no_creases(tmp_path):
 def test_very_large_sheets_are_shown_by_facets(tmp_path, monkeypatch):
     """Above the limit: two triangles a panel, each with the largest value of its four cells."""
     fine, state = view_of(tmp_path)
-    monkeypatch.setattr(view, "CELLS_MAX", 10)
+    monkeypatch.setattr(viewer_data, "CELLS_MAX", 10)
     cells = np.random.default_rng(5).permutation(8 * PANELS).reshape(-1, 4)
     state.final["utilization_cell"] = cells
-    coarse = make_view(make_design_view(state, 5.0, Limits(), Elasticity(31e6, 0.2)))
+    coarse = make_viewer_data(make_design_view(state, 5.0, Limits(), Elasticity(31e6, 0.2)))
     assert np.array_equal(coarse.arrays["field_utilization"], cells.max(axis=1))
     assert len(coarse.arrays["triangles"]) == 2 * PANELS
     assert np.array_equal(coarse.arrays["nodes"], state.shell["vertices"])
