@@ -37,12 +37,13 @@ def write_files(folder, classes=True, comparison=None, history=True, **options):
     rows = ["volume_m3,utilization_panel_mean_max,displacement_vertical_max_m,displacement_limit_m"]
     rows += ["2.0,0.4,0.01,0.02", "1.8,,0.011,0.02"] if history else ["2.0,,,"]
     (folder / "history.csv").write_text("\n".join(rows) + "\n")
-    Image.new("RGB", (400, 300), "teal").save(folder / "principal_stress_lines.png")
+    pictures = {name: folder / f"{name}.png" for name in ("principal_stress_lines", "utilization")}
+    for path in pictures.values():
+        Image.new("RGB", (400, 300), "teal").save(path)
     paths = {"mesh": mesh, "folded": folded, "arrays": arrays, "final": final}
     names = {"class_arrays": "classes.npz", "classes": "classes.json", "quality": "quality.json",
              "mesh_convergence": "study.json", "comparison": "comparison.json",
              "history": "history.csv"}  # fmt: skip
-    pictures = {"principal_stress_lines": folder / "principal_stress_lines.png"}
     return paths | {key: folder / name for key, name in names.items()}, pictures
 
 

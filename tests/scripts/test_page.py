@@ -114,6 +114,44 @@ def test_page_without_webgl_says_so(tmp_path):
     run(tmp_path)
     found = browse(tmp_path / "page.html", "--disable-3d-apis")
     assert 'data-state="no-view"' in found
-    assert "No 3D view: this browser offers no WebGL 2." in found
+    assert "this browser offers no WebGL 2" in found
     assert "all criteria are met" in found
     assert "data:image/webp;base64," in found
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium")
+@pytest.mark.parametrize("webgl", [True, False])
+def test_menus_are_there_only_with_the_view_that_they_belong_to(tmp_path, webgl):
+    """With WebGL: menus, no still picture. Without: the picture in place of view and menus."""
+    run(tmp_path)
+    path = tmp_path / "page.html"
+    probe = """<script>setTimeout(() => {
+      for (const name of ["field", "view", "still", "no-view"])
+        document.body.dataset[name.replace("-", "")] =
+          document.getElementById(name).checkVisibility();
+    }, 4000);</script>"""
+    path.write_text(path.read_text(encoding="utf-8").replace("</body>", f"{probe}</body>"))
+    flags = ("--use-angle=swiftshader", "--enable-unsafe-swiftshader")
+    body = re.search(r"<body[^>]*>", browse(path, *(flags if webgl else ("--disable-3d-apis",))))[0]
+    assert f'data-state="{"ready" if webgl else "no-view"}"' in body
+    shown = {"field": webgl, "view": webgl, "still": not webgl, "noview": not webgl}
+    for name, visible in shown.items():
+        assert f'data-{name}="{str(visible).lower()}"' in body
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium")
+def test_hostile_texts_do_not_run_in_a_browser(tmp_path):
+    """Markup in every text that a file can hold: the title stays, nothing is added to the page."""
+    act = "document.title='owned'"
+    evil = f'</script></title><img src=x onerror="{act}"><script>{act}</script>'
+    run(
+        tmp_path, DESIGN | {"tags": evil, "surface": evil}, reason=evil, criteria={evil: {}},
+        comparison={"pass": False, "note": evil, "quantities": {evil: {}}},
+    )  # fmt: skip
+    found = browse(tmp_path / "page.html", "--disable-3d-apis")
+    assert "<title>case</title>" in found
+    assert found.count("<script") == 3
+    assert "&lt;img src=x onerror" in found
+    assert '<img src="x"' not in found

@@ -15,7 +15,10 @@ from foldshell.report.viewer_data import ViewerData
 SCRIPTS = ("data.js", "renderer.js", "camera.js", "viewer.js")
 SIZE_MAX = 1_400_000
 """Bytes: a browser shows larger pages blank inside Snakemake's report (2 MB as a data URI)."""
-PICTURE_WIDTH = 560
+PICTURE_WIDTH, STILL_WIDTH = 530, 800
+"""Pixels, about: of the pictures, and of the one in place of a 3D view that cannot be made."""
+STILLS = ("utilization", "thickness")
+"""What that picture shows: the first of them that there is."""
 SHOWN = {"principal_stress_lines": "principal stress lines", "isolines": "utilization isolines",
          "buckling": "buckling mode", "strain": "strain of the folding"}  # fmt: skip
 """Pictures that the 3D view does not replace."""
@@ -53,9 +56,11 @@ def write_design_page(
         "packed": packed,
         "scripts": SCRIPTS,
     }
+    still = next((name for name in STILLS if name in pictures), None)
+    values["still"] = still and show_picture(still, pictures[still], STILL_WIDTH)
     page = render("design.html", **values, pictures=shown)
     if len(page.encode()) > SIZE_MAX:
-        page = render("design.html", **values, pictures=[])
+        page = render("design.html", **values | {"still": None}, pictures=[])
     if len(page.encode()) > SIZE_MAX:
         raise ValueError(f"page of {len(page.encode())} bytes: {SIZE_MAX} at most")
     return page
@@ -68,19 +73,21 @@ def _link_pictures(pictures: Mapping[str, str | Path]) -> dict[str, str]:
     }
 
 
-def show_picture(name: str, path: str | Path) -> dict[str, str]:
+def show_picture(name: str, path: str | Path, width: int = PICTURE_WIDTH) -> dict[str, str]:
     """Return a picture for a page: its words, where it lies, and small as a data URI."""
-    small = shrink_picture(path)
-    return {"words": SHOWN[name], "path": f"figures/{Path(path).name}", "data": small}
+    words = SHOWN.get(name, name.replace("_", " "))
+    return {
+        "words": words,
+        "path": f"figures/{Path(path).name}",
+        "data": shrink_picture(path, width),
+    }
 
 
-def shrink_picture(path: str | Path) -> str:
-    """Return a picture, reduced to `PICTURE_WIDTH` pixels, as a data URI."""
+def shrink_picture(path: str | Path, width: int) -> str:
+    """Return a picture, reduced by a whole number to `width` pixels or more, as a data URI."""
     with Image.open(path) as picture:
-        height = round(picture.height * PICTURE_WIDTH / picture.width)
         whole = picture if picture.mode == "RGB" else picture.convert("RGB")
-        size = (PICTURE_WIDTH, height)
-        small = whole.resize(size, Image.Resampling.BOX, reducing_gap=2.0)
+        small = whole.reduce(max(1, picture.width // width))
     stream = io.BytesIO()
     small.save(stream, format="WEBP", quality=62, method=2)
     return "data:image/webp;base64," + base64.b64encode(stream.getvalue()).decode("ascii")

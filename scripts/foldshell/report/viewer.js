@@ -200,7 +200,7 @@ async function start() {
     if (wanted.has("panel")) app.choose(Number(wanted.get("panel")));
     document.body.dataset.state = "ready";
   } catch (error) {
-    byId("no-view").textContent = `No 3D view: ${error.message}. All numbers stand in the tables.`;
+    byId("why").textContent = `: ${error.message}`;
     document.body.dataset.state = "no-view";
   }
 }

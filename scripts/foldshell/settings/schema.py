@@ -11,6 +11,7 @@ import jsonschema
 import yaml
 
 from foldshell.files.errors import InputError
+from foldshell.files.plain_text import find_unsafe
 from foldshell.settings.nearest import find_nearest, hint_nearest
 
 CONFIG_FOLDER = Path(__file__).resolve().parents[3] / "config"
@@ -108,7 +109,7 @@ def _describe_range(schema: Mapping[str, Any]) -> str:
 
 def validate(data: Any, schema: Mapping[str, Any], source: str) -> None:
     """Raise `InputError` with the first thing in `data` that `schema` does not allow."""
-    _refuse_not_finite(data, source, "")
+    _refuse_unfit(data, source, "")
     validator = jsonschema.Draft202012Validator(schema)
     errors = sorted(validator.iter_errors(data), key=_rank)
     if errors:
@@ -120,13 +121,16 @@ def _rank(error: jsonschema.ValidationError) -> tuple[bool, list[str]]:
     return unknown_first, [str(step) for step in error.absolute_path]
 
 
-def _refuse_not_finite(data: Any, source: str, place: str) -> None:
+def _refuse_unfit(data: Any, source: str, place: str) -> None:
     if isinstance(data, float) and not math.isfinite(data):
         raise InputError(f"{source}: {place}: {data}: only finite numbers are allowed")
+    unsafe = find_unsafe(data) if isinstance(data, str) else None
+    if unsafe:
+        raise InputError(f"{source}: {place}: {data!a}: {unsafe}: plain text is allowed")
     items = data.items() if isinstance(data, Mapping) else ()
     items = enumerate(data) if isinstance(data, list) else items
     for key, value in items:
-        _refuse_not_finite(value, source, join_place(place, key))
+        _refuse_unfit(value, source, join_place(place, key))
 
 
 def join_place(place: str, key: Any) -> str:

@@ -80,6 +80,10 @@ def make_columns(keys: Sequence[str]) -> list[Column]:
     return [make_column(key) for key in keys]
 
 
+FORMULA_STARTS = ("=", "+", "@", "\t", "\r")
+"""A spreadsheet runs a text of a .csv file that begins so; an apostrophe before it says not to."""
+
+
 def write_csv(path: str | Path, keys: Sequence[str], rows: Sequence[Row]) -> None:
     """Write rows as UTF-8 .csv with a header; floats with all their digits, None left empty."""
     with (
@@ -97,7 +101,10 @@ def _show(value: Any) -> str:
         return ""
     if isinstance(value, bool):
         return "yes" if value else "no"
-    return repr(float(value)) if isinstance(value, float) else str(value)
+    if isinstance(value, float):
+        return repr(float(value))
+    text = str(value)
+    return f"'{text}" if isinstance(value, str) and text.startswith(FORMULA_STARTS) else text
 
 
 def write_table(

@@ -32,7 +32,8 @@ def test_every_text_of_a_page_is_escaped():
     section = Section(EVIL, Box("bad", EVIL, EVIL, EVIL), EVIL, table, note=EVIL)
     design = {"title": EVIL, "description": EVIL, "sections": [section], "links": {EVIL: EVIL},
               "pictures": [{"words": EVIL, "path": EVIL, "data": EVIL}], "facts": {"name": EVIL},
-              "packed": "", "scripts": []}  # fmt: skip
+              "packed": "", "scripts": [],
+              "still": {"words": EVIL, "path": EVIL, "data": EVIL}}  # fmt: skip
     summary = {"title": EVIL, "counts": EVIL, "checked": 0, "columns": [(EVIL, 0)],
                "rows": [(EVIL, [Cell(EVIL)])]}  # fmt: skip
     settings = {"title": EVIL, "digest": EVIL, "groups": [(EVIL, table)]}
