@@ -10,6 +10,7 @@ from foldshell.settings.material import Material
 from foldshell.shell.analysis import AnalysisOptions, analyse_shell, build_model
 from foldshell.shell.assembly import assemble_stiffness, find_pattern, translation_dofs
 from foldshell.shell.buckling import find_buckling_factors
+from foldshell.folding import normal_equations
 from foldshell.shell.cholmod_library import open_library
 from foldshell.shell.geometric import apply_geometric, make_geometric_products
 from foldshell.shell.linear_solver import (
@@ -237,6 +238,15 @@ def test_direct_calls_of_cholmod_equal_those_of_cvxopt():
     exact = CvxoptFactor(model.pattern, values).solve(right)
     found = CholmodFactor(model.pattern, values).solve(right)
     assert found == pytest.approx(exact, abs=1e-10 * np.abs(exact).max())
+
+
+def test_the_fast_path_is_the_one_taken():
+    """With the packages of the lock file, analyses and folding factorise by CHOLMOD, called
+    directly: a new wheel that hides its library would else only be seen in the times."""
+    model = arch_model()
+    values = assemble_stiffness(model.operators, model.pattern, np.full(64, 0.05), 31e6)
+    assert type(factorise(model.pattern, values)) is CholmodFactor
+    assert normal_equations.cholmod is not None
 
 
 def test_two_factors_of_one_pattern_do_not_disturb_each_other():
