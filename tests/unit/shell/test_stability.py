@@ -5,12 +5,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from foldshell.folding import normal_equations
 from foldshell.loads.cases import Loads
 from foldshell.settings.material import Material
 from foldshell.shell.analysis import AnalysisOptions, analyse_shell, build_model
 from foldshell.shell.assembly import assemble_stiffness, find_pattern, translation_dofs
 from foldshell.shell.buckling import find_buckling_factors
-from foldshell.folding import normal_equations
 from foldshell.shell.cholmod_library import open_library
 from foldshell.shell.geometric import apply_geometric, make_geometric_products
 from foldshell.shell.linear_solver import (
