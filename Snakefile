@@ -9,13 +9,11 @@ import sys
 import time
 from pathlib import Path
 
-from snakemake.utils import min_version
-
-min_version("9.0")
-sys.path.insert(0, str(Path(workflow.basedir) / "scripts"))
+sys.path.insert(0, str(Path(workflow.current_basedir) / "scripts"))
 
 from foldshell.settings.config_file import read_config
 from foldshell.engine.environment import ONE_THREAD, prepare_environment
+from foldshell.engine.versions import check_snakemake
 from foldshell.files.errors import user_errors
 from foldshell.settings.load import load_study
 from foldshell.files.edits import keep_all_edited
@@ -24,6 +22,7 @@ prepare_environment(os.environ)
 
 
 with user_errors():
+    check_snakemake()
     read_config("config/config.yaml")
 
 
@@ -62,6 +61,7 @@ include: "rules/pattern.smk"
 include: "rules/fold.smk"
 include: "rules/shell.smk"
 include: "rules/sizing.smk"
+include: "rules/final.smk"
 include: "rules/crosscheck.smk"
 include: "rules/study.smk"
 include: "rules/deliver.smk"

@@ -69,9 +69,24 @@ def surface_content(wildcards):
     return [write_content_list([path], ".snakemake/library") for path in surface_file(wildcards)]
 
 
+def results_folder(_wildcards):
+    """Return the folder of all results, as a parameter."""
+    return RESULTS
+
+
 def timing(rule, suffix=""):
     """Return where the time and memory of each job of a rule are kept."""
     return f"{RESULTS}/benchmarks/{rule}/{{design}}{suffix}.tsv"
+
+
+def log_of(rule, suffix=""):
+    """Return where what each job of a rule prints is kept."""
+    return f"{RESULTS}/logs/{rule}/{{design}}{suffix}.log"
+
+
+def study_log(name):
+    """Return where what a job over all designs prints is kept."""
+    return f"{RESULTS}/logs/{name}.log"
 
 
 def subdivisions(wildcards):
@@ -111,4 +126,5 @@ def study_files(tag):
 
 
 include: "loop.smk"
-include: "jobs.smk"
+include: "engine.smk"
+include: "inputs.smk"

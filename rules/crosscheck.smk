@@ -2,28 +2,28 @@
 
 
 rule neutral_model:
-    message:
-        "{wildcards.design}: neutral model"
     input:
         mesh=rules.mesh.output.mesh,
         final=rules.size.output.arrays,
         library=code_inputs("neutral_model"),
     output:
         model=f"{RESULTS}/{{design}}/crosscheck/model.json",
-    params:
-        settings=of_stage("crosscheck"),
-    priority: AFTER_LOOP
+    log:
+        log_of("neutral_model"),
     benchmark:
         timing("neutral_model")
+    priority: AFTER_LOOP
     conda:
         "../envs/foldshell.yaml"
+    params:
+        settings=of_stage("crosscheck"),
+    message:
+        "{wildcards.design}: neutral model"
     script:
         "../scripts/neutral_model.py"
 
 
 rule mesh_convergence:
-    message:
-        "{wildcards.design}: mesh error"
     input:
         folded=rules.fold.output.folded,
         final=rules.size.output.arrays,
@@ -31,23 +31,25 @@ rule mesh_convergence:
     output:
         study=f"{RESULTS}/{{design}}/mesh_convergence.json",
         primary=f"{RESULTS}/{{design}}/crosscheck/primary.json",
+    log:
+        log_of("mesh_convergence"),
+    benchmark:
+        timing("mesh_convergence")
+    priority: AFTER_LOOP
+    conda:
+        "../envs/foldshell.yaml"
     params:
         **of_design("support"),
         edge_beam=edge_beam,
         subdivisions=subdivisions,
         settings=of_stage("crosscheck"),
-    priority: AFTER_LOOP
-    benchmark:
-        timing("mesh_convergence")
-    conda:
-        "../envs/foldshell.yaml"
+    message:
+        "{wildcards.design}: mesh error"
     script:
         "../scripts/mesh_convergence.py"
 
 
 rule compare:
-    message:
-        "{wildcards.design}: cross-check by the independent code"
     input:
         model=rules.neutral_model.output.model,
         primary=rules.mesh_convergence.output.primary,
@@ -55,15 +57,19 @@ rule compare:
     output:
         comparison=f"{RESULTS}/{{design}}/crosscheck/comparison.json",
         workbook=f"{RESULTS}/{{design}}/crosscheck/comparison.xlsx",
+    log:
+        log_of("compare"),
+    benchmark:
+        timing("compare")
+    priority: AFTER_LOOP
+    conda:
+        "../envs/foldshell.yaml"
     params:
         subdivisions=SETTINGS.crosscheck.subdivisions,
         solver=SETTINGS.crosscheck.solver,
         tolerance=stage_parameters(SETTINGS, "crosscheck")["crosscheck"]["tolerance"],
-    priority: AFTER_LOOP
-    benchmark:
-        timing("compare")
-    conda:
-        "../envs/foldshell.yaml"
+    message:
+        "{wildcards.design}: cross-check by the independent code"
     script:
         "../scripts/compare.py"
 
@@ -72,15 +78,17 @@ THIRD = [f"{RESULTS}/{d.name}/crosscheck" for d in DESIGNS if "supports" in d.ta
 
 
 rule crosscheck_opensees:
-    message:
-        "A third opinion by OpenSees, where openseespy is installed"
     input:
         models=[f"{folder}/model.json" for folder in THIRD],
         primaries=[f"{folder}/primary.json" for folder in THIRD],
         library=code_inputs("crosscheck_opensees"),
     output:
         table=f"{RESULTS}/crosscheck_opensees.csv",
+    log:
+        study_log("crosscheck_opensees"),
     conda:
         "../envs/foldshell.yaml"
+    message:
+        "A third opinion by OpenSees, where openseespy is installed"
     script:
         "../scripts/crosscheck_opensees.py"

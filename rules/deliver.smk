@@ -2,8 +2,6 @@
 
 
 rule draw:
-    message:
-        "{wildcards.design}: pictures and final fields"
     input:
         mesh=rules.mesh.output.mesh,
         folded=rules.fold.output.folded,
@@ -15,21 +13,23 @@ rule draw:
         **{name: f"{RESULTS}/{{design}}/figures/{name}.png" for name in PICTURES},
         vtu=f"{RESULTS}/{{design}}/design.vtu",
         lines=f"{RESULTS}/{{design}}/design_lines.vtu",
+    log:
+        log_of("draw"),
+    benchmark:
+        timing("draw")
+    priority: AFTER_LOOP
+    conda:
+        "../envs/foldshell.yaml"
     params:
         **of_design("span_m", "pattern"),
         settings=lambda wildcards: of_stage("size")(wildcards) | of_stage("figures")(wildcards),
-    priority: AFTER_LOOP
-    benchmark:
-        timing("draw")
-    conda:
-        "../envs/foldshell.yaml"
+    message:
+        "{wildcards.design}: pictures and final fields"
     script:
         "../scripts/draw.py"
 
 
 rule page:
-    message:
-        "{wildcards.design}: page"
     input:
         mesh=rules.mesh.output.mesh,
         folded=rules.fold.output.folded,
@@ -51,13 +51,17 @@ rule page:
             caption="../docs/report/page.rst",
             labels={"design": "{design}"},
         ),
+    log:
+        log_of("page"),
+    benchmark:
+        timing("page")
+    priority: AFTER_LOOP
+    conda:
+        "../envs/foldshell.yaml"
     params:
         design=lambda wildcards: BY_NAME[wildcards.design].to_row(),
         settings=of_stage("size"),
-    priority: AFTER_LOOP
-    benchmark:
-        timing("page")
-    conda:
-        "../envs/foldshell.yaml"
+    message:
+        "{wildcards.design}: page"
     script:
         "../scripts/page.py"

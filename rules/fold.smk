@@ -1,6 +1,4 @@
 rule fold:
-    message:
-        "{wildcards.design}: folding onto the target surface"
     input:
         fold=rules.pattern.output.fold,
         surface=surface_file,
@@ -10,21 +8,23 @@ rule fold:
         folded=f"{RESULTS}/{{design}}/folded/folded.npz",
         vtu=f"{RESULTS}/{{design}}/folded/folded.vtu",
         quality=f"{RESULTS}/{{design}}/folded/quality.json",
+    log:
+        log_of("fold"),
+    benchmark:
+        timing("fold")
+    priority: BEFORE_LOOP
+    conda:
+        "../envs/foldshell.yaml"
     params:
         **of_design("surface", "span_m", "height_m", "fold_mode"),
         settings=lambda wildcards: of_stage("fold")(wildcards)["fold"],
-    priority: BEFORE_LOOP
-    benchmark:
-        timing("fold")
-    conda:
-        "../envs/foldshell.yaml"
+    message:
+        "{wildcards.design}: folding onto the target surface"
     script:
         "../scripts/fold.py"
 
 
 rule unfold:
-    message:
-        "{wildcards.design}: crease pattern of the folded sheet"
     input:
         pattern=rules.pattern.output.fold,
         folded=rules.fold.output.folded,
@@ -33,35 +33,39 @@ rule unfold:
         fold=f"{RESULTS}/{{design}}/pattern/developable_pattern.fold",
         dxf=f"{RESULTS}/{{design}}/pattern/developable_pattern.dxf",
         svg=f"{RESULTS}/{{design}}/pattern/developable_pattern.svg",
+    log:
+        log_of("unfold"),
+    conda:
+        "../envs/foldshell.yaml"
     params:
         **of_design("fold_mode"),
         drawings=lambda wildcards: of_stage("drawings")(wildcards)["drawings"],
-    conda:
-        "../envs/foldshell.yaml"
+    message:
+        "{wildcards.design}: crease pattern of the folded sheet"
     script:
         "../scripts/unfold.py"
 
 
 rule animate:
-    message:
-        "{wildcards.design}: animation of the {wildcards.pattern} pattern"
     input:
         fold=f"{RESULTS}/{{design}}/pattern/{{pattern}}_pattern.fold",
         library=code_inputs("animate"),
     output:
         gif=f"{RESULTS}/{{design}}/animation/{{pattern}}.gif",
         stills=directory(f"{RESULTS}/{{design}}/animation/{{pattern}}"),
+    log:
+        log_of("animate", "-{pattern}"),
     wildcard_constraints:
         pattern="crease|developable",
     conda:
         "../envs/foldshell.yaml"
+    message:
+        "{wildcards.design}: animation of the {wildcards.pattern} pattern"
     script:
         "../scripts/animate.py"
 
 
 rule kinematics:
-    message:
-        "kinematics of the Miura sheet"
     input:
         library=code_inputs("kinematics"),
     output:
@@ -69,9 +73,13 @@ rule kinematics:
         figure=f"{RESULTS}/kinematics.png",
         rules=f"{RESULTS}/kinematics_rules.csv",
         trajectories=f"{RESULTS}/kinematics_trajectories.png",
-    params:
-        sector_angle_deg=SECTOR_ANGLE_DEG,
+    log:
+        study_log("kinematics"),
     conda:
         "../envs/foldshell.yaml"
+    params:
+        sector_angle_deg=SECTOR_ANGLE_DEG,
+    message:
+        "kinematics of the Miura sheet"
     script:
         "../scripts/kinematics.py"

@@ -2,8 +2,6 @@
 
 import json
 
-from snakemake.exceptions import IncompleteCheckpointException
-
 
 def previous_iteration(names):
     """Return a function of the wildcards: files of the iteration before, none for the first."""
@@ -66,13 +64,12 @@ def iterations(wildcards):
         return existing_analyses(wildcards.design, 0)[-1:]
     files = []
     for number in range(100):
-        try:
-            step = checkpoints.analyse.get(design=wildcards.design, iteration=f"{number:02d}")
-        except IncompleteCheckpointException as missing:
+        path, made = find_analysis(design=wildcards.design, iteration=f"{number:02d}")
+        if not made:
             if not RUN["started"] and (former := existing_analyses(wildcards.design, number)):
                 return former
-            return [str(missing.targetfile)]
-        files.append(step.output.json)
+            return [path]
+        files.append(path)
         if not asks_for_another(files[-1]):
             break
     return files

@@ -5,27 +5,33 @@ DECIDING = ["pattern", "fold", "mesh", "start", "analyse", "resize"]
 
 
 rule manifest:
-    message:
-        "{wildcards.design}: manifest"
     input:
         files=lambda wildcards: design_files(wildcards.design),
         library=code_inputs("manifest"),
     output:
         manifest=f"{RESULTS}/{{design}}/manifest.json",
-    params:
-        deciding_rules=DECIDING,
-        code=str(workflow.basedir),
+    log:
+        log_of("manifest"),
     priority: AFTER_LOOP
     conda:
         "../envs/foldshell.yaml"
+    params:
+        deciding_rules=DECIDING,
+        code=str(workflow.basedir),
+    message:
+        "{wildcards.design}: manifest"
     script:
         "../scripts/manifest.py"
 
 
 rule verify:
+    log:
+        study_log("verify"),
+    conda:
+        "../envs/foldshell.yaml"
+    params:
+        results=results_folder,
     message:
         "are the results still what was made?"
-    params:
-        results=RESULTS,
     script:
         "../scripts/verify.py"

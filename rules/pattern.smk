@@ -1,6 +1,4 @@
 rule pattern:
-    message:
-        "{wildcards.design}: crease pattern"
     input:
         surface=surface_file,
         content=surface_content,
@@ -9,14 +7,18 @@ rule pattern:
         fold=f"{RESULTS}/{{design}}/pattern/crease_pattern.fold",
         dxf=f"{RESULTS}/{{design}}/pattern/crease_pattern.dxf",
         svg=f"{RESULTS}/{{design}}/pattern/crease_pattern.svg",
+    log:
+        log_of("pattern"),
+    benchmark:
+        timing("pattern")
+    priority: BEFORE_LOOP
+    conda:
+        "../envs/foldshell.yaml"
     params:
         **of_design("pattern", "surface", "span_m", "height_m", "zigzag", "strip"),
         sector_angle_deg=SECTOR_ANGLE_DEG,
         drawings=lambda wildcards: of_stage("drawings")(wildcards)["drawings"],
-    priority: BEFORE_LOOP
-    benchmark:
-        timing("pattern")
-    conda:
-        "../envs/foldshell.yaml"
+    message:
+        "{wildcards.design}: crease pattern"
     script:
         "../scripts/pattern.py"

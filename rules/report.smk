@@ -4,24 +4,7 @@
 report: "../docs/report/workflow.rst"
 
 
-def has_claims():
-    """Tell whether the claims are judged or asked for: they need many more runs than the study."""
-    asked = {"report", "claims"} & set(map(str, workflow.dag_settings.targets))
-    return bool(asked) or Path(f"{RESULTS}/claims.json").exists()
-
-
-def report_files(wildcards):
-    """Return what the report shows."""
-    pages = [f"{RESULTS}/report/{name}.html" for name in ("summary", "verification", "settings")]
-    pages += [f"{RESULTS}/timings.csv"] + [f"{RESULTS}/report/claims.html"] * has_claims()
-    figures = [f"{RESULTS}/figures/{name}.png" for name in CHARTS + PANEL_CHARTS + SHEETS]
-    designs = [f"{RESULTS}/{name}/page.html" for name in names_of_tag(SETTINGS.study)]
-    return pages + figures + designs
-
-
 rule report_pages:
-    message:
-        "pages of the report"
     input:
         summary=rules.summary.output.csv,
         verification=[f"{SCRIPTS}/../tests/verification/README.md"],
@@ -46,17 +29,19 @@ rule report_pages:
             caption="../docs/report/settings.rst",
             labels={"page": "settings and versions"},
         ),
-    params:
-        settings=stage_parameters(SETTINGS, "study"),
+    log:
+        study_log("report_pages"),
     conda:
         "../envs/foldshell.yaml"
+    params:
+        settings=stage_parameters(SETTINGS, "study"),
+    message:
+        "pages of the report"
     script:
         "../scripts/report_pages.py"
 
 
 rule claims_page:
-    message:
-        "claims as a page"
     input:
         claims=f"{RESULTS}/claims.md",
         library=code_inputs("claims_page"),
@@ -68,8 +53,12 @@ rule claims_page:
             caption="../docs/report/claims.rst",
             labels={"page": "claims of the paper"},
         ),
+    log:
+        study_log("claims_page"),
     conda:
         "../envs/foldshell.yaml"
+    message:
+        "claims as a page"
     script:
         "../scripts/claims_page.py"
 
@@ -80,17 +69,21 @@ rule report_contents:
 
 
 rule report:
-    message:
-        "report"
     input:
         report_files,
         library=code_inputs("report"),
         stylesheet=f"{SCRIPTS}/foldshell/report/report.css",
     output:
         report=f"{RESULTS}/report.html",
+    log:
+        study_log("report"),
+    conda:
+        "../envs/foldshell.yaml"
     params:
-        snakefile=workflow.main_snakefile,
+        snakefile=main_snakefile(),
         target="report_contents",
-        config=dict(workflow.config_settings.overwrite_config or {}),
+        config=config,
+    message:
+        "report"
     script:
         "../scripts/report.py"

@@ -1,20 +1,22 @@
 rule mesh:
-    message:
-        "{wildcards.design}: shell mesh and supports"
     input:
         folded=rules.fold.output.folded,
         library=code_inputs("mesh"),
     output:
         mesh=f"{RESULTS}/{{design}}/shell/mesh.npz",
         vtu=f"{RESULTS}/{{design}}/shell/mesh.vtu",
+    log:
+        log_of("mesh"),
+    benchmark:
+        timing("mesh")
+    priority: BEFORE_LOOP
+    conda:
+        "../envs/foldshell.yaml"
     params:
         **of_design("support"),
         edge_beam=edge_beam,
         subdivisions=subdivisions,
-    priority: BEFORE_LOOP
-    benchmark:
-        timing("mesh")
-    conda:
-        "../envs/foldshell.yaml"
+    message:
+        "{wildcards.design}: shell mesh and supports"
     script:
         "../scripts/mesh.py"

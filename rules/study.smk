@@ -1,72 +1,60 @@
 # What is said over all designs.
 
 
-def summary_inputs(tag):
-    """Return the result files that the summary of a tag's designs reads."""
-    files = ["folded/quality.json", "sizing/final.json", "mesh_convergence.json"]
-    files.append("crosscheck/comparison.json")
-    return [f"{RESULTS}/{name}/{file}" for name in names_of_tag(tag) for file in files]
-
-
-def summary_rows(tag):
-    """Return the rows of designs.tsv that a summary lists, with their subdivisions."""
-    return [
-        BY_NAME[name].to_row()
-        | {"mesh_subdivisions": choose_subdivisions(SETTINGS, BY_NAME[name])}
-        for name in names_of_tag(tag)
-    ]
-
-
 rule schemas:
-    message:
-        "schemas of the result files"
     input:
         library=code_inputs("schemas"),
     output:
         SCHEMAS,
+    log:
+        study_log("schemas"),
     conda:
         "../envs/foldshell.yaml"
+    message:
+        "schemas of the result files"
     script:
         "../scripts/schemas.py"
 
 
 rule summary:
-    message:
-        "summary of the study"
     input:
         results=summary_inputs(SETTINGS.study),
         library=code_inputs("summary"),
     output:
         csv=f"{RESULTS}/summary.csv",
         xlsx=f"{RESULTS}/summary.xlsx",
-    params:
-        designs=summary_rows(SETTINGS.study),
-        results=RESULTS,
-        settings=stage_parameters(SETTINGS, "study"),
+    log:
+        study_log("summary"),
     conda:
         "../envs/foldshell.yaml"
+    params:
+        designs=summary_rows(SETTINGS.study),
+        results=results_folder,
+        settings=stage_parameters(SETTINGS, "study"),
+    message:
+        "summary of the study"
     script:
         "../scripts/summary.py"
 
 
 use rule summary as summary_of_tag with:
-    message:
-        "summary of {wildcards.tag}"
     input:
         results=lambda wildcards: summary_inputs(wildcards.tag),
         library=code_inputs("summary"),
     output:
         csv=f"{RESULTS}/tags/{{tag}}/summary.csv",
         xlsx=f"{RESULTS}/tags/{{tag}}/summary.xlsx",
+    log:
+        study_log("summary-{tag}"),
     params:
         designs=lambda wildcards: summary_rows(wildcards.tag),
-        results=RESULTS,
+        results=results_folder,
         settings=stage_parameters(SETTINGS, "study"),
+    message:
+        "summary of {wildcards.tag}"
 
 
 rule timings:
-    message:
-        "time of each rule"
     input:
         rules.summary.output.csv,
         study_files(SETTINGS.study),
@@ -78,10 +66,14 @@ rule timings:
             caption="../docs/report/timings.rst",
             labels={"page": "time of each rule"},
         ),
-    params:
-        folder=f"{RESULTS}/benchmarks",
+    log:
+        study_log("timings"),
     conda:
         "../envs/foldshell.yaml"
+    params:
+        folder=f"{RESULTS}/benchmarks",
+    message:
+        "time of each rule"
     script:
         "../scripts/timings.py"
 

@@ -1,11 +1,13 @@
 """Rule report: Snakemake's own report of what is done, in one HTML file."""
 
-import json
 import subprocess
 import sys
+import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
+
+import yaml
 
 from foldshell.engine.job import run_job
 from foldshell.files.errors import InputError
@@ -21,15 +23,15 @@ def main(
 ) -> None:
     """Let a second Snakemake, which runs no job, gather what is flagged below `target`.
 
-    It works in the same folder while the first one holds the lock, and gets the same `config`
-    from the command line. `stylesheet` is added to Snakemake's own.
+    It works in the same folder while the first one holds the lock, and gets all settings that the
+    first one has, wherever they came from, in a file. `stylesheet` is added to Snakemake's own.
     """
-    with atomic_path(report) as temporary:
+    with atomic_path(report) as temporary, tempfile.TemporaryDirectory() as folder:
+        settings = Path(folder) / "config.yaml"
+        settings.write_text(yaml.safe_dump(dict(config)), encoding="utf-8")
         command = [sys.executable, "-m", "snakemake", "--nolock", "--cores", "1", "-s", snakefile]
-        command += ["--report", str(temporary), target]
+        command += ["--report", str(temporary), target, "--configfile", str(settings)]
         command += ["--report-stylesheet", str(stylesheet)]
-        if config:
-            command += ["--config", *(f"{key}={json.dumps(v)}" for key, v in config.items())]
         done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode or not temporary.stat().st_size:
             last = (done.stderr.strip().splitlines() or ["no message"])[-1]

@@ -8,6 +8,7 @@ import pytest
 import report
 from foldshell.files.errors import InputError
 
+pytestmark = pytest.mark.workflow
 SNAKEFILE = """
 rule all:
     input: "page.html"

@@ -1,5 +1,7 @@
 """A copy of the workflow and a tiny study that has run undisturbed, made once for all tests."""
 
+from pathlib import Path
+
 import pytest
 from study_runner import TARGET, copy_code, make_study, run
 
@@ -17,3 +19,10 @@ def finished(code, tmp_path_factory):
     done = run(code, folder, TARGET)
     assert done.returncode == 0, done.stderr[-3000:]
     return folder
+
+
+def pytest_collection_modifyitems(items):
+    """Mark every test of this folder: it starts Snakemake."""
+    for item in items:
+        if Path(__file__).parent in item.path.parents:
+            item.add_marker("workflow")

@@ -137,10 +137,10 @@ def times(folder: Path, pattern: str) -> dict[str, int]:
 
 
 def results(folder: Path) -> dict[str, str]:
-    """Return {relative path: SHA-256} of all results, less seconds in JSON and benchmarks."""
+    """Return {relative path: SHA-256} of all results, less seconds in JSON, benchmarks and logs."""
     found = {}
     for path in sorted((folder / "results").rglob("*")):
-        if path.is_file() and "benchmarks" not in path.parts:
+        if path.is_file() and not {"benchmarks", "logs"} & set(path.parts):
             data = path.read_bytes()
             if path.suffix == ".json":
                 content = json.loads(data)

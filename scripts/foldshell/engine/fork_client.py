@@ -10,12 +10,15 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from foldshell.engine.fork_server import ENDED, STARTED
+from foldshell.engine.fork_server import ENDED, SIGNAL, STARTED
 
 AVAILABLE = sys.platform == "linux" and hasattr(socket, "recv_fds")
 
+NO_ANSWER = 255
+"""Exit code of a script whose process ended by itself but said nothing."""
+
 KEPT_MB = 1200.0
-"""A fork that has grown larger than this ends with its script, whatever its kind."""
+"""A fork that has grown larger than this ends with its script, whatever its pool."""
 
 
 class NoForkServer(OSError):
@@ -23,7 +26,7 @@ class NoForkServer(OSError):
 
 
 @dataclass(frozen=True)
-class Ended:
+class JobResult:
     """How a script ended: exit code, processor time (s) and largest resident memory (MB)."""
 
     code: int
@@ -32,33 +35,45 @@ class Ended:
 
 
 class Job:
-    """A script that runs in the fork `pid`; `end` is called with the fork and how it ended."""
+    """A script that runs in the fork `pid`; `end` is called with the fork and how it ended.
 
-    def __init__(self, fork: socket.socket, end: Callable[[socket.socket, Ended], None]) -> None:
-        self._fork, self._end = fork, end
+    `find_signal` asks for the signal that killed the fork of a process id.
+    """
+
+    def __init__(
+        self,
+        fork: socket.socket,
+        end: Callable[[socket.socket, JobResult], None],
+        find_signal: Callable[[int], int],
+    ) -> None:
+        self._fork, self._end, self._find_signal = fork, end, find_signal
         started = fork.recv(STARTED.size)
         if not started:
             raise NoForkServer("the fork server has ended")
         (self.pid,) = STARTED.unpack(started)
 
-    def wait(self) -> Ended:
-        """Wait for the end of the script. A process that was killed has exit code -1."""
+    def wait(self) -> JobResult:
+        """Wait for the end of the script. A process that was killed by signal s has exit code -s,
+        one that ended without an answer `NO_ANSWER`."""
         try:
             answer = self._fork.recv(ENDED.size)
         except ConnectionError:
             answer = b""
-        code, seconds, kilobytes = ENDED.unpack(answer) if answer else (-1, 0.0, 0)
-        ended = Ended(code, seconds, kilobytes / 1024)
-        self._end(self._fork, ended)
-        return ended
+        if answer:
+            code, seconds, kilobytes = ENDED.unpack(answer)
+        else:
+            code, seconds, kilobytes = -self._find_signal(self.pid) or NO_ANSWER, 0.0, 0
+        result = JobResult(code, seconds, kilobytes / 1024)
+        self._end(self._fork, result)
+        return result
 
 
 @dataclass(frozen=True)
 class _Kept:
-    """A fork that waits for another script of its kind, and what its last one was about."""
+    """A fork that waits for another script of its pool, and the affinity of its last one."""
 
-    kind: str
-    topic: str
+    pool: str
+    affinity: str
     fork: socket.socket
 
 
@@ -88,22 +103,26 @@ class ForkServer:
                 program + arguments, pass_fds=[other.fileno()], env=environment
             )
 
-    def start(self, script: str | Path, kind: str = "", topic: str = "") -> Job:
+    def start(
+        self, script: str | Path, pool: str = "", affinity: str = "", log: str | Path = ""
+    ) -> Job:
         """Run a script in a fork. Raises `NoForkServer` if it cannot even be started.
 
-        The fork of a script with a `kind` stays when it has ended well, with all that it holds in
-        memory, and runs the next script of that kind: one on the same `topic` if there is a choice.
+        The fork of a script with a `pool` stays when it has ended well, with all that it holds in
+        memory, and runs the next script of that pool: one of the same `affinity`, such as the
+        design, if there is a choice. What the script prints goes to `log`, if there is one.
         """
-        while kind and (fork := self._take(kind, topic)):
+        message = os.fsencode(script) + b"\0" + os.fsencode(log)
+        while pool and (fork := self._take(pool, affinity)):
             with contextlib.suppress(OSError):  # killed while it waited
-                fork.send(os.fsencode(script))
-                return self._job(fork, kind, topic)
+                fork.send(message)
+                return self._job(fork, pool, affinity)
             fork.close()
         own, other = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
         try:
             with other, self._lock:
-                socket.send_fds(self._requests, [os.fsencode(script)], [other.fileno()])
-            return self._job(own, kind, topic)
+                socket.send_fds(self._requests, [message], [other.fileno()])
+            return self._job(own, pool, affinity)
         except OSError as error:
             own.close()
             raise NoForkServer(str(error)) from error
@@ -116,25 +135,35 @@ class ForkServer:
                 self._kept.pop().fork.close()
         self.process.wait()
 
-    def _take(self, kind: str, topic: str) -> socket.socket | None:
-        """Return a fork that waits, the one on the topic first, else the one that waits longest."""
+    def _take(self, pool: str, affinity: str) -> socket.socket | None:
+        """Return a fork that waits, one of the affinity first, else the one that waits longest."""
         with self._lock:
-            fitting = [kept for kept in self._kept if kept.kind == kind]
-            fitting.sort(key=lambda kept: kept.topic != topic)
+            fitting = [kept for kept in self._kept if kept.pool == pool]
+            fitting.sort(key=lambda kept: kept.affinity != affinity)
             if not fitting:
                 return None
             self._kept.remove(fitting[0])
             return fitting[0].fork
 
-    def _job(self, fork: socket.socket, kind: str, topic: str) -> Job:
+    def _job(self, fork: socket.socket, pool: str, affinity: str) -> Job:
         """Return the job that a fork has begun; its end keeps the fork or lets it go."""
 
-        def end(fork: socket.socket, ended: Ended) -> None:
+        def end(fork: socket.socket, result: JobResult) -> None:
             """Keep the fork, or let it go."""
-            if not kind or ended.code or ended.rss_mb > KEPT_MB:
+            if not pool or result.code or result.rss_mb > KEPT_MB:
                 fork.close()
                 return
             with self._lock:
-                self._kept.append(_Kept(kind, topic, fork))
+                self._kept.append(_Kept(pool, affinity, fork))
 
-        return Job(fork, end)
+        return Job(fork, end, self._find_signal)
+
+    def _find_signal(self, pid: int) -> int:
+        """Return the signal that killed a fork, 0 if none or if the server is gone too."""
+        own, other = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
+        with own, contextlib.suppress(OSError):
+            with other, self._lock:
+                socket.send_fds(self._requests, [b"\0%d" % pid], [other.fileno()])
+            answer = own.recv(SIGNAL.size)
+            return SIGNAL.unpack(answer)[0] if answer else 0
+        return 0

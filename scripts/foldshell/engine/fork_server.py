@@ -1,9 +1,11 @@
 """The process that runs scripts in forks of itself: `fork_server.py descriptor folder module ...`.
 
 It imports the modules once, from the folder, whenever the socket `descriptor` has no message. A
-message is the path of a script, with a socket of its own for the answer. The fork sends its process
-id, runs the script, and sends (exit code, processor seconds, largest resident memory in kB). Then
-it waits for another script on that socket, and ends when it is closed.
+message is the path of a script, and after a zero byte that of its log, with a socket of its own for
+the answer. The fork sends its process id, runs the script, and sends (exit code, processor seconds,
+largest resident memory in kB). Then it waits for another script on that socket, and ends when it is
+closed. A message that begins with the zero byte holds the id of a fork: the answer is the signal
+that killed it, 0 for none.
 A closed `descriptor` ends the server, whoever closed it: nothing stays behind a killed client.
 """
 
@@ -23,6 +25,7 @@ import traceback
 STARTED = struct.Struct("q")
 ENDED = struct.Struct("qdq")
 MESSAGE_MAX = 65536
+SIGNAL = struct.Struct("i")
 OWN_AND_CHILDREN = resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN
 
 
@@ -32,7 +35,8 @@ def serve(requests: socket.socket, modules: list[str]) -> None:
     A module that cannot be imported is left to the scripts: the error belongs there.
     """
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for the jobs and who started them
-    signal.signal(signal.SIGCHLD, signal.SIG_IGN)  # forks that have ended leave no zombies
+    killed: dict[int, int] = {}
+    signal.signal(signal.SIGCHLD, lambda *_: reap_forks(killed))
     waiting = list(modules)
     while True:
         while waiting and not select.select([requests], [], [], 0)[0]:
@@ -43,19 +47,41 @@ def serve(requests: socket.socket, modules: list[str]) -> None:
         if not message:
             return
         with socket.socket(fileno=descriptors[0]) as answer:
-            if os.fork() == 0:
+            if message.startswith(b"\0"):
+                with contextlib.suppress(OSError):  # nobody waits any more
+                    answer.send(SIGNAL.pack(find_signal(int(message[1:]), killed)))
+            elif os.fork() == 0:
                 requests.close()
                 run_fork(message, answer)
+
+
+def reap_forks(killed: dict[int, int]) -> None:
+    """Take note of the forks that have ended, so that they leave no zombies: {id: signal}."""
+    with contextlib.suppress(ChildProcessError):
+        while (ended := os.waitpid(-1, os.WNOHANG))[0]:
+            if os.WIFSIGNALED(ended[1]):
+                killed[ended[0]] = os.WTERMSIG(ended[1])
+
+
+def find_signal(fork: int, killed: dict[int, int]) -> int:
+    """Return the signal that killed a fork which ends now or has ended, 0 for none."""
+    with contextlib.suppress(ChildProcessError):  # the note is taken already
+        status = os.waitpid(fork, 0)[1]
+        return os.WTERMSIG(status) if os.WIFSIGNALED(status) else 0
+    return killed.pop(fork, 0)
 
 
 def run_fork(message: bytes, answer: socket.socket) -> None:
     """Run the script as `python script` would, answer, go on with the next; end this process."""
     signal.signal(signal.SIGINT, signal.default_int_handler)
     signal.signal(signal.SIGCHLD, signal.SIG_DFL)
+    terminal = os.dup(1), os.dup(2)
     try:
         while message:
-            script, before = os.fsdecode(message), count_seconds()
+            script, _, log = os.fsdecode(message).partition("\0")
+            before = count_seconds()
             name_process(script)
+            redirect_output(log, terminal)
             answer.send(STARTED.pack(os.getpid()))
             code = run_script(script)
             sys.stdout.flush()
@@ -65,6 +91,20 @@ def run_fork(message: bytes, answer: socket.socket) -> None:
             message = answer.recv(MESSAGE_MAX)
     finally:
         os._exit(0)
+
+
+def redirect_output(log: str, terminal: tuple[int, int]) -> None:
+    """Let all that the process prints, by whatever library, go to its log; without one, or where
+    the log cannot be written, to where it went at first."""
+    targets = terminal
+    if log:
+        with contextlib.suppress(OSError):
+            opened = os.open(log, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_APPEND, 0o666)
+            targets = opened, opened
+    for target, own in zip(targets, (1, 2), strict=True):
+        os.dup2(target, own)
+    if targets is not terminal:
+        os.close(targets[0])
 
 
 def count_seconds() -> float:

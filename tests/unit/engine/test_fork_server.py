@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from foldshell.engine.fork_client import AVAILABLE, ForkServer, NoForkServer
+from foldshell.engine.fork_client import AVAILABLE, NO_ANSWER, ForkServer, NoForkServer
 
 pytestmark = pytest.mark.skipif(not AVAILABLE, reason="forks are made on Linux alone")
 SCRIPTS = Path(__file__).parents[3] / "scripts"
@@ -79,8 +79,8 @@ def test_a_script_runs_as_the_main_module_with_the_libraries_loaded(server, fold
         ("raise SystemExit", 0, ""),
         ("raise SystemExit('no such file')", 1, "no such file\n"),
         ("1 / 0", 1, "ZeroDivisionError: division by zero\n"),
-        ("import os, signal; os.kill(os.getpid(), signal.SIGKILL)", -1, ""),
-        ("import os; os._exit(0)", -1, ""),
+        ("import os, signal; os.kill(os.getpid(), signal.SIGKILL)", -9, ""),
+        ("import os; os._exit(0)", NO_ANSWER, ""),
         ("print('out'); import sys; print('err', file=sys.stderr)", 0, "err\n"),
         ("import subprocess; assert subprocess.run(['true']).returncode == 0", 0, ""),
     ],
@@ -98,42 +98,62 @@ def test_forks_share_nothing(server, folder):
     assert [run(server, folder, change).code for _ in range(3)] == [0, 0, 0]
 
 
-def run_kept(server, folder, text, topic="", kind="shell", name="job.py"):
-    """Run a script of a kind that is kept; return its process and how it ended."""
+def run_kept(server, folder, text, affinity="", pool="shell", name="job.py"):
+    """Run a script of a pool that is kept; return its process and how it ended."""
     script = folder.parent / name
     script.write_text(text)
-    job = server.start(script, kind, topic)
+    job = server.start(script, pool, affinity)
     return job.pid, job.wait()
 
 
-def test_a_kept_fork_runs_the_next_script_of_its_kind_with_what_it_holds(server, folder):
+def test_a_kept_fork_runs_the_next_script_of_its_pool_with_what_it_holds(server, folder):
     change = "import library\nlibrary.loaded.append(2)\nassert len(library.loaded) == {}"
     first, end = run_kept(server, folder, change.format(2))
     assert end.code == 0 and is_alive(first)
-    second, end = run_kept(server, folder, change.format(3), "another topic")
+    second, end = run_kept(server, folder, change.format(3), "another affinity")
     assert (second, end.code) == (first, 0)
-    assert run_kept(server, folder, change.format(2), kind="other")[1].code == 0
+    assert run_kept(server, folder, change.format(2), pool="other")[1].code == 0
     assert run(server, folder, change.format(2)).code == 0
 
 
-def run_two(server, folder, kind):
-    """Run two scripts side by side, on the topics a and b; return their processes."""
+def test_what_a_script_and_its_children_print_goes_to_its_log(server, folder):
+    """Of a script that fails or is killed too; the next one of a kept fork has its own."""
+    talk = "import os\nprint('out')\nos.system('echo child >&2')\n"
+    logs = [folder.parent / f"{number}.log" for number in range(3)]
+    for log, last in zip(logs, ("", "1 / 0", "os.kill(os.getpid(), 9)"), strict=True):
+        script = folder.parent / "job.py"
+        script.write_text(talk.replace("out", log.stem) + "import sys; sys.stdout.flush()\n" + last)
+        server.start(script, "shell", log=log).wait()
+    texts = [log.read_text() for log in logs]
+    assert all("child\n" in text for text in texts)
+    assert all(f"{number}\n" in text for number, text in enumerate(texts))
+    assert "ZeroDivisionError" in texts[1] and "ZeroDivisionError" not in texts[2]
+
+
+def test_a_log_that_cannot_be_written_stops_no_script(server, folder):
+    script = folder.parent / "job.py"
+    script.write_text("print('said')")
+    assert server.start(script, log=folder.parent / "no/such.log").wait().code == 0
+
+
+def run_two(server, folder, pool):
+    """Run two scripts side by side, of the affinities a and b; return their processes."""
     script, ready = folder.parent / "wait.py", folder.parent / "ready"
     script.write_text(
         f"import os, time\nwhile not os.path.exists({str(ready)!r}): time.sleep(0.01)"
     )
-    jobs = [server.start(script, kind, topic) for topic in ("a", "b")]
+    jobs = [server.start(script, pool, affinity) for affinity in ("a", "b")]
     assert all(is_alive(job.pid) for job in jobs)
     ready.touch()
     assert [job.wait().code for job in jobs] == [0, 0]
     return [job.pid for job in jobs]
 
 
-def test_a_script_goes_to_the_kept_fork_of_its_topic_else_to_the_one_that_waits_longest(
+def test_a_script_goes_to_the_kept_fork_of_its_affinity_else_to_the_one_that_waits_longest(
     server, folder
 ):
     a, b = run_two(server, folder, "shell")
-    assert [run_kept(server, folder, "", topic)[0] for topic in "babaa"] == [b, a, b, a, a]
+    assert [run_kept(server, folder, "", affinity)[0] for affinity in "babaa"] == [b, a, b, a, a]
     assert run_kept(server, folder, "", "c")[0] == b
 
 
@@ -186,7 +206,7 @@ def test_processor_time_counts_the_work_of_the_fork_and_its_children(server, fol
 
 
 def test_jobs_run_side_by_side_and_leave_no_process(server, folder):
-    assert all(map(wait_until_gone, run_two(server, folder, kind="")))
+    assert all(map(wait_until_gone, run_two(server, folder, pool="")))
 
 
 def test_without_a_server_nothing_is_started(server, folder):

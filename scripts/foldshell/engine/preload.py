@@ -1,0 +1,18 @@
+"""What the fork server imports before it is asked for a script, and which forks stay."""
+
+# fmt: off
+MODULES = [
+    "snakemake.script", "pattern", "fold", "mesh", "start", "analyse", "resize", "xlsxwriter",
+    "foldshell.shell.warm_up", "cvxopt.amd", "group", "size", "neutral_model",
+    "mesh_convergence", "compare", "crosscheck.verdict", "crosscheck.workbook", "draw",
+    "meshio", "page", "vtkmodules.vtkRenderingOpenGL2", "vtkmodules.util.numpy_support",
+    "ezdxf", "sensitivity", "flat_equal", "summary", "timings", "report_pages", "all_designs",
+    "study_figures", "manifest", "matplotlib.backends.backend_agg", "matplotlib.backends.backend_svg",
+]
+# fmt: on
+"""In the order in which they are needed: scripts, and what they import only where they use it."""
+
+POOLS = {"analyse": "shell", "group": "shell", "draw": "pictures"}
+"""Rules whose process stays for the next job of a pool. Analyses of a design follow each other: the
+next one finds the mesh's operators, the order of elimination and memory there, a quarter of its
+time. Pictures find the renderer set up."""
