@@ -69,26 +69,6 @@ def surface_content(wildcards):
     return [write_content_list([path], ".snakemake/library") for path in surface_file(wildcards)]
 
 
-def results_folder(_wildcards):
-    """Return the folder of all results, as a parameter."""
-    return RESULTS
-
-
-def timing(rule, suffix=""):
-    """Return where the time and memory of each job of a rule are kept."""
-    return f"{RESULTS}/benchmarks/{rule}/{{design}}{suffix}.tsv"
-
-
-def log_of(rule, suffix=""):
-    """Return where what each job of a rule prints is kept."""
-    return f"{RESULTS}/logs/{rule}/{{design}}{suffix}.log"
-
-
-def study_log(name):
-    """Return where what a job over all designs prints is kept."""
-    return f"{RESULTS}/logs/{name}.log"
-
-
 def subdivisions(wildcards):
     """Return the subdivisions of a facet edge."""
     return choose_subdivisions(SETTINGS, BY_NAME[wildcards.design])

@@ -1,7 +1,27 @@
-# What the rules over all designs read and write.
+# Files: logs and times of jobs, what the rules over all designs read and write.
 
 from foldshell.claims.sensitivity import VARIANTS
 from foldshell.settings.stages import FINAL_STATE
+
+
+def results_folder(_wildcards):
+    """Return the folder of all results, as a parameter."""
+    return RESULTS
+
+
+def timing(rule, suffix=""):
+    """Return where the time and memory of each job of a rule are kept."""
+    return f"{RESULTS}/benchmarks/{rule}/{{design}}{suffix}.tsv"
+
+
+def log_of(rule, suffix=""):
+    """Return where what each job of a rule prints is kept."""
+    return f"{RESULTS}/logs/{rule}/{{design}}{suffix}.log"
+
+
+def study_log(name):
+    """Return where what a job over all designs prints is kept."""
+    return f"{RESULTS}/logs/{name}.log"
 
 
 def summary_inputs(tag):

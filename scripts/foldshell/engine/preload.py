@@ -7,7 +7,8 @@ MODULES = [
     "mesh_convergence", "compare", "crosscheck.verdict", "crosscheck.workbook", "draw",
     "meshio", "page", "vtkmodules.vtkRenderingOpenGL2", "vtkmodules.util.numpy_support",
     "ezdxf", "sensitivity", "flat_equal", "summary", "timings", "report_pages", "all_designs",
-    "study_figures", "manifest", "matplotlib.backends.backend_agg", "matplotlib.backends.backend_svg",
+    "study_figures", "manifest",
+    "matplotlib.backends.backend_agg", "matplotlib.backends.backend_svg",
 ]
 # fmt: on
 """In the order in which they are needed: scripts, and what they import only where they use it."""
