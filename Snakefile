@@ -1,7 +1,7 @@
 """Folded shell structures, from crease pattern to sized and cross-checked structure.
 
 `snakemake --cores 2` runs the study, `snakemake --cores 2 demo` one small design,
-`snakemake --cores 2 tag_<tag>` a part of config/designs.tsv. One stage a file in rules/.
+`snakemake --cores 2 tag_<tag>` a part of config/designs.tsv. One file per stage in rules/.
 """
 
 import os

@@ -20,7 +20,7 @@ def main(
 ) -> None:
     """Write the pages `all_thickness` and `all_utilization`.
 
-    `results` has a folder a design; `settings` are the plain parameters of stage `size`.
+    `results` has one folder per design; `settings` are the plain parameters of stage `size`.
     """
     tiles = [
         make_tile(view_design(state, settings, design.number["span_m"], design.pattern))

@@ -23,7 +23,7 @@ def main(
 ) -> None:
     """Write the named charts (of `CHARTS`; PNG or SVG by suffix).
 
-    `results` has a folder a design; `settings` are the plain parameters of stage `size`.
+    `results` has one folder per design; `settings` are the plain parameters of stage `size`.
     """
     limits = read_limits(settings)
     states = read_states(summary_path, results, settings["combinations"])

@@ -22,7 +22,7 @@ def main(
     """Write both summaries of the designs, in their order.
 
     `designs` holds the columns of designs.tsv and `mesh_subdivisions`, `results` is the folder
-    with one folder a design, and `settings` are the plain parameters of the stage `study`.
+    with one folder per design, and `settings` are the plain parameters of the stage `study`.
     """
     if not designs:
         raise InputError("summary: designs: none given: at least one is due")

@@ -7,7 +7,7 @@ from foldshell.files.whole import atomic_path
 
 
 def main(folder: str | Path, csv_path: str | Path) -> None:
-    """Write timings.csv, a row a rule; times differ from run to run, results do not."""
+    """Write timings.csv, one row per rule; times differ from run to run, results do not."""
     with atomic_path(csv_path) as temporary:
         collect_timings(folder).to_csv(temporary, index=False)
 

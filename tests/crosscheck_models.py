@@ -9,7 +9,7 @@ import numpy as np
 DATA = Path(__file__).parent / "data"
 
 # sheet, support, thickness m, largest downward displacement mm, strain energy kNm: the limits of
-# two other element families refined to 16 x 16 sub-triangles a facet.
+# two other element families refined to 16 x 16 sub-triangles per facet.
 SIX_CASES = (
     ("paraboloid", "strip", 0.05, 370.0, 198.0),
     ("arch", "strip", 0.05, 301.5, 147.5),

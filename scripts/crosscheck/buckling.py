@@ -3,7 +3,7 @@
 T = inverse(K) (-Kg) is self-adjoint in the inner product of K; its largest eigenvalue is one over
 the lowest factor. K (T v) = -Kg v is known without a product, and it acts on translations alone:
 inner products need the translations of one vector and the forces of the other, nothing else.
-Two vectors a combination are iterated side by side: a step reads the factor as often as with one,
+Two vectors per combination are iterated side by side: a step reads the factor as often as with one,
 they need two thirds of its steps where modes are close together, and see both modes of a pair.
 Starts are random on every mesh: from the mode of a coarser one the search could end on its like,
 where another mode has become the lowest.
@@ -22,7 +22,7 @@ BLOCK = 2
 STEPS = 60
 TOLERANCE = 1e-5
 """Bound on the relative error of 1/f. At 1e-3 the search ended on a higher mode, 3 and 7 % up, in
-two of 34 designs, one vector a combination; at 1e-5 two vectors take 7 to 22 steps on five."""
+two of 34 designs, one vector per combination; at 1e-5 two vectors take 7 to 22 steps on five."""
 DEPENDENT = 1e-20
 """What is left of a squared length at right angles to the basis, where it is rounding alone."""
 

@@ -40,7 +40,7 @@ class Loads:
 
 @dataclass(frozen=True)
 class Model:
-    """A folded shell: flat facets, a thickness a panel, pinned edges, loads."""
+    """A folded shell: flat facets, one thickness per panel, pinned edges, loads."""
 
     design: str
     vertices: np.ndarray  # (V, 3) m

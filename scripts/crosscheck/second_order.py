@@ -105,7 +105,7 @@ def solve_second_order(
 def search_second_order(
     system: System, forces: np.ndarray, first: Response, tolerance: float = TOLERANCE
 ) -> Steps:
-    """Fixed point u <- inverse(K) (F - Kg(N(u)) u), with Anderson acceleration a combination.
+    """Fixed point u <- inverse(K) (F - Kg(N(u)) u), with Anderson acceleration per combination.
 
     `forces` (F, R, 3, c) act on facet nodes; `first` is the first-order answer, where it starts.
     Returns a SecondOrder, raises NotSettled.

@@ -120,7 +120,7 @@ def test_error_against_cost_on_folds():
 
 
 def draw_error(rows, path):
-    """Draw |error| against CPU time, one panel a case."""
+    """Draw |error| against CPU time, one panel per case."""
     import matplotlib
 
     matplotlib.use("Agg")

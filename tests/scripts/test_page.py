@@ -1,4 +1,4 @@
-"""Rule page: one file a design, whatever became of it."""
+"""Rule page: one file per design, whatever became of it."""
 
 import html
 import re

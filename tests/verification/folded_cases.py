@@ -1,7 +1,7 @@
 """Six thin folded sheets whose displacement and work are known from refined meshes.
 
 The sheets in tests/data are 28 m x 10 m, 15 x 16 lines. The limits were bracketed by two element
-families refined to 16 x 16 sub-triangles a facet; work is u.F / 2 under 1.2(SW+SDL)+1.6LL+0.5Wx.
+families refined to 16 x 16 sub-triangles per facet; work is u.F / 2 under 1.2(SW+SDL)+1.6LL+0.5Wx.
 """
 
 from dataclasses import dataclass

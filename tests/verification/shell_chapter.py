@@ -175,7 +175,7 @@ FOLDED_HEAD = """
 ## Thin folded sheets
 
 Sheets of 28 m x 10 m with 15 x 16 lines under 1.2 (SW + SDL) + 1.6 LL + 0.5 WX, first order. The
-limits were bracketed by two other element families refined to 16 x 16 triangles a facet, to about
+limits were bracketed by two other element families refined to 16 x 16 triangles per facet, to about
 1 %. Meshes n = 2, 4, 8, 12. On n = 4 displacement and work are within 5 %, on n = 8 within 2 %;
 the 99th percentile of utilization on n = 8 is within 5 % of that on n = 12.
 

@@ -131,7 +131,7 @@ def write_spread(
     design_results: Sequence[DesignResult],
     words: Mapping[str, str],
 ) -> str:
-    """Return the section on volumes under other settings: one row per design, a column a variant.
+    """Return the section on volumes: one row per design, one column per variant of settings.
 
     It says for how many designs the run in memory ends where the loop in files did.
     """

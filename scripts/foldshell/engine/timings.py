@@ -11,7 +11,7 @@ import pandas as pd
 
 
 def collect_timings(folder: str | Path) -> pd.DataFrame:
-    """Return a row a rule, the longest first, and one for all: jobs, wall_s, wall_mean_s,
+    """Return one row per rule, the longest first, and one for all: jobs, wall_s, wall_mean_s,
     wall_max_s, rss_max_mb.
 
     Parameters

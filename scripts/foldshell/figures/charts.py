@@ -45,7 +45,7 @@ def draw_comparison(
     comparison: Comparison,
     limit_span_over: float = DISPLACEMENT_LIMIT,
 ) -> Figure:
-    """Return histogram of utilization, displacement and volume per area; a column a group."""
+    """Return histogram of utilization, displacement and volume per area; one column per group."""
     columns = sort_into_columns(designs, comparison)
     with plt.rc_context(STYLE):
         if not columns:
@@ -110,7 +110,7 @@ def draw_bars(
     series: Sequence[str],
     largest: float,
 ) -> None:
-    """Draw one bar a design, its value in mm, or its state where there is no value.
+    """Draw one bar per design, its value in mm, or its state where there is no value.
 
     A star marks designs whose loop did not converge. `largest` is the largest value of all
     columns: low bars have their value above them.

@@ -16,7 +16,7 @@ BINS = 10
 
 
 def draw_planarity_chart(designs: Sequence[StudyDesign]) -> Figure:
-    """Return counts of panels over planarity and mean utilization; a column a surface.
+    """Return counts of panels over planarity and mean utilization; one column per surface.
 
     The paper left open whether the two are related. Above each column stand the rank correlation
     of all its panels, and the median of the correlations within single designs, which differences

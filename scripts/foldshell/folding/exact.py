@@ -72,7 +72,7 @@ def solve_exactly(
 ) -> Solution:
     """Tighten the constraints from a soft start, then project onto them.
 
-    Their weight grows tenfold a stage, 1 to 1e4 (1e7 in rigid mode, where the target pulls
+    Their weight grows tenfold per stage, 1 to 1e4 (1e7 in rigid mode, where the target pulls
     against them); each stage starts from the last and shares one symbolic factorisation.
     """
     # In rigid mode the target is only a pull, so its minimum is worth finding more closely.

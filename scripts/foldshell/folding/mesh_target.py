@@ -19,7 +19,7 @@ if TYPE_CHECKING:
     import pyvista
 
 SUFFIXES = (".stl", ".obj", ".vtk", ".vtu", ".ply")
-STEEPEST = math.radians(85)  # slope of a triangle; walls have no one height a place
+STEEPEST = math.radians(85)  # slope of a triangle; walls have no one height per place
 SAMPLES = 801  # points of a central section
 FLATTEN = 1e-6  # heights are scaled by it where only the plan position counts
 
@@ -237,7 +237,7 @@ def _check_surface(path: str | Path, vertices: np.ndarray, triangles: np.ndarray
         )
     low, high = vertices[:, :2].min(axis=0), vertices[:, :2].max(axis=0)
     if plan.sum() / 2 > 1.01 * np.prod(high - low):
-        raise InputError(f"{path}: surface lies over itself in plan: one height a place is needed")
+        raise InputError(f"{path}: surface lies over itself in plan: one height per place is due")
 
 
 def _check_cover(path: str | Path, target: MeshTarget) -> None:

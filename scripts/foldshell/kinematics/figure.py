@@ -59,7 +59,7 @@ def _draw_isometries(axis, sheets: list[dict[str, Any]]) -> None:
 
 
 def _draw_force_ratios(axis, rows: list[dict[str, Any]], kind: str) -> None:
-    """One mark a trial: shape by surface, colour by outcome, hollow for the explicit engine."""
+    """One mark per trial: shape by surface, colour by outcome, hollow for the explicit engine."""
     rows = [row for row in rows if row["panels"] == kind]
     for surface, mark in (("paraboloid", "o"), ("hypar", "^")):
         for folded, colour in ((True, "tab:blue"), (False, "tab:orange")):

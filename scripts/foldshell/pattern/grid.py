@@ -12,7 +12,7 @@ class Grid:
     """Connectivity of `zigzag_count` x `strip_count` polylines, borders included.
 
     Vertex (i, j) is row `i * strip_count + j`; panel (i, j) is `i * (strip_count - 1) + j`.
-    Edges come in three runs: along zig-zags, along strips, neutral folds (one a panel).
+    Edges come in three runs: along zig-zags, along strips, neutral folds (one per panel).
     """
 
     zigzag_count: int

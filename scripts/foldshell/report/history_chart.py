@@ -1,4 +1,4 @@
-"""The course of a sizing loop as inline SVG: one panel one quantity over the iterations."""
+"""The course of a sizing loop as inline SVG: one panel per quantity over the iterations."""
 
 import math
 from collections.abc import Mapping, Sequence

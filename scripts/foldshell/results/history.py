@@ -1,4 +1,4 @@
-"""The history of a sizing loop as plain rows, one an iteration."""
+"""The history of a sizing loop as plain rows, one per iteration."""
 
 from collections.abc import Mapping, Sequence
 from typing import Any

@@ -112,7 +112,7 @@ def _read_rows(path: Path) -> list[tuple[int, dict[str, str]]]:
     header = _split(header_text)
     _check_header(header, f"{path}: line {header_line}")
     if len(lines) == 1:
-        raise InputError(f"{path}: no design stands below the header: a line a design is due")
+        raise InputError(f"{path}: no design stands below the header: one line per design is due")
     if len(lines) > _DESIGNS_MAX:
         raise InputError(f"{path}: {len(lines) - 1} designs: at most {_DESIGNS_MAX} are allowed")
     rows = []

@@ -13,7 +13,7 @@ _TABLE_HEAD = "| {} | default | allowed | meaning |\n|---|---|---|---|\n"
 
 
 def generate_readme() -> str:
-    """Return the text of config/README.md: a table a group of settings, and the columns."""
+    """Return the text of config/README.md: one table per group of settings, and the columns."""
     schema = load_schema("config.schema.yaml")
     parts = [
         "<!-- Generated from config.schema.yaml and designs.schema.yaml by\n"

@@ -1,7 +1,7 @@
 """Scatter element matrices into one sparse lower triangle whose pattern is found once.
 
 Freedoms are grouped by the vertex, edge or inside of an element they belong to. All freedoms of
-a group are joined with the same others, so the pattern is found from groups, seven an element,
+a group are joined with the same others, so the pattern is found from groups, seven per element,
 and an entry's place follows by arithmetic. Groups stand in an order of little fill.
 """
 

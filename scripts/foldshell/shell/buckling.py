@@ -138,7 +138,7 @@ class _Subspace:
 
     def __init__(self, solve, apply_cases, cases: int, size: int) -> None:
         self._solve, self._apply = solve, apply_cases
-        # room for more vectors than most searches need, a vector a row: basis, K times it, and
+        # room for more vectors than most searches need, one vector per row: basis, K times it, and
         # K_g of every case times it
         self._room = np.empty((2 + cases, ROOM, size))
         self._count = 0

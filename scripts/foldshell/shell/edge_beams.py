@@ -47,7 +47,7 @@ def free_edges(facets: np.ndarray, held: np.ndarray) -> np.ndarray:
 def hang_edge_beam_panels(
     vertices: np.ndarray, facets: np.ndarray, edges: np.ndarray, depth: float
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return vertices and facets with two facets more an edge, in the order of the edges.
+    """Return vertices and facets with two facets more per edge, in the order of the edges.
 
     The positive side of the sheet continues on the outer side of the panel: over their common edge
     both facets run in opposite directions. Parallelograms are cut along their shorter diagonal.

@@ -83,7 +83,7 @@ def make_geometric_products(
     """Return what maps vectors (size, k) to K_g of each column of N times them, (c, size, k).
 
     The same as `apply_geometric` for forces that stay while vectors change: K_g is kept as one
-    matrix an element and case, which acts on x, y and z alike.
+    matrix per element and case, which acts on x, y and z alike.
 
     Parameters
     ----------

@@ -58,7 +58,7 @@ def corner_positions(order: int) -> np.ndarray:
 def split_subdivisions(subdivisions: int) -> tuple[int, int]:
     """Return (k, p): elements along a facet edge and their order, for n result cells along it.
 
-    k is the least divisor of n that leaves at most 4 cells an element, and p = n/k + 1: a mesh
+    k is the least divisor of n that leaves at most 4 cells per element, and p = n/k + 1: a mesh
     with n = 1, 2, 3, 4, 8, 16 has (1, 2), (1, 3), (1, 4), (1, 5), (2, 5), (4, 5).
     """
     if subdivisions < 1:

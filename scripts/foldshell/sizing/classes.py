@@ -47,7 +47,7 @@ def group_thicknesses(needed: npt.ArrayLike, area: npt.ArrayLike, count: int) ->
 
 def _check(needed: FloatArray, area: FloatArray, count: int) -> None:
     if needed.ndim != 1 or needed.shape != area.shape or needed.size == 0:
-        raise ValueError("one thickness and one area a panel are due")
+        raise ValueError("one thickness and one area per panel are due")
     if not (np.isfinite(needed) & np.isfinite(area) & (needed > 0) & (area > 0)).all():
         raise ValueError("thicknesses and areas must be finite and above 0")
     if count < 1:

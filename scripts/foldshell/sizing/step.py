@@ -49,7 +49,7 @@ class StepRule:
 
 @dataclass(frozen=True)
 class NextStep:
-    """Next thickness (P,) m, a note a panel, and the memory that the step after it needs."""
+    """Next thickness (P,) m, one note per panel, and the memory that the step after it needs."""
 
     thickness: np.ndarray
     note: tuple[str, ...]

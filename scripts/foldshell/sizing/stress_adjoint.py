@@ -1,4 +1,4 @@
-"""Gradient of the utilization of panels, by one adjoint a panel and governing combination."""
+"""Gradient of the utilization of panels, by one adjoint per panel and governing combination."""
 
 import numpy as np
 

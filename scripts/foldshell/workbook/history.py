@@ -42,7 +42,7 @@ def write_history(
     summary: Mapping[str, Any],
     utilization_max: float = 1.0,
 ) -> None:
-    """Write `history.xlsx`: sheets summary, history (a row an iteration) and charts."""
+    """Write `history.xlsx`: sheets summary, history (one row per iteration) and charts."""
     with create_workbook(path, "History of the sizing loop") as (book, styles):
         sheet = add_sheet(book, "summary", landscape=False)
         sheet.set_column(0, 0, 34)

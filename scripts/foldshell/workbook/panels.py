@@ -24,7 +24,7 @@ class PanelGrid:
 
 @dataclass(frozen=True)
 class ThicknessTable:
-    """Columns of the sheet `thickness`, one value a panel in the order of ids.
+    """Columns of the sheet `thickness`, one value per panel in the order of ids.
 
     thickness and previous in m, utilization and relative change without unit.
     """

@@ -50,7 +50,7 @@ def read_thickness(path: str | Path, grid: PanelGrid, least: float, largest: flo
     if missing.size:
         raise InputError(
             f"{place}: panel {missing[0]}: the row is missing ({missing.size} of {thickness.size} "
-            "panels are): one row a panel is due"
+            "panels are): one row per panel is due"
         )
     return round_thickness(thickness)
 

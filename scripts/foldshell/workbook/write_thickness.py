@@ -44,7 +44,7 @@ def write_thickness(
     largest: float,
     utilization_max: float = 1.0,
 ) -> None:
-    """Write sheet `summary` (label, value, unit) and sheet `thickness` (a row a panel).
+    """Write sheet `summary` (label, value, unit) and sheet `thickness` (one row per panel).
 
     `summary` maps keys with unit suffixes (`volume_m3`) to plain values; least and largest (m)
     bound the input cells. Thickness is rounded to 12 digits, so that reading gives back exactly
@@ -54,7 +54,7 @@ def write_thickness(
     thickness = round_thickness(table.thickness)
     inside = np.isfinite(thickness) & (thickness >= least) & (thickness <= largest)
     if thickness.shape != table.grid.zigzag_index.shape or not inside.all():
-        raise ValueError(f"one thickness a panel from {least} to {largest} m is due")
+        raise ValueError(f"one thickness per panel from {least} to {largest} m is due")
     with create_workbook(path, "Thickness of the panels") as (book, styles):
         sheet = add_sheet(book, "summary", landscape=False)
         sheet.set_column(0, 0, 34)

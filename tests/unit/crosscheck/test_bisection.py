@@ -7,7 +7,7 @@ from crosscheck.bisection import bisect
 
 
 def zigzag_strip(columns, rows, sway):
-    """Unknowns and centres of a grid of squares whose columns sway, one unknown an edge."""
+    """Unknowns and centres of a grid of squares whose columns sway, one unknown per edge."""
     number = {}
     place, centres = [], []
     for i in range(columns):

@@ -53,7 +53,7 @@ def test_every_entry_script_depends_on_what_it_loads():
 
 
 def test_analyse_and_resize_do_not_load_heavy_packages():
-    """pandas, pyvista, matplotlib and meshio cost up to half a second a job."""
+    """pandas, pyvista, matplotlib and meshio cost up to half a second per job."""
     import subprocess
     import sys
 

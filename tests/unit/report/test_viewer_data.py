@@ -78,7 +78,7 @@ def test_smooth_sheets_have_no_creases(tmp_path):
 
 
 def test_very_large_sheets_are_shown_by_facets(tmp_path, monkeypatch):
-    """Above the limit: two triangles a panel, each with the largest value of its four cells."""
+    """Above the limit: two triangles per panel, each with the largest value of its four cells."""
     fine, state = view_of(tmp_path)
     monkeypatch.setattr(viewer_data, "CELLS_MAX", 10)
     cells = np.random.default_rng(5).permutation(8 * PANELS).reshape(-1, 4)

@@ -121,7 +121,7 @@ def test_summary_shows_label_value_and_unit(tmp_path):
 def test_values_outside_the_bounds_are_not_written(tmp_path, spoilt):
     path = write_case(tmp_path / "thickness.xlsx")
     before = path.read_bytes()
-    with pytest.raises(ValueError, match="one thickness a panel"):
+    with pytest.raises(ValueError, match="one thickness per panel"):
         write_thickness(path, ThicknessTable(GRID, spoilt), SUMMARY, LEAST, LARGEST)
     assert path.read_bytes() == before
     assert list(tmp_path.iterdir()) == [path]
