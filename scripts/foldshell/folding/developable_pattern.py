@@ -6,8 +6,9 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from foldshell.folding.exact import ExactWeights, Solution, solve_exactly
+from foldshell.folding.exact import ExactWeights, Solution, allow_rounding, solve_exactly
 from foldshell.folding.intersections import find_intersections
+from foldshell.folding.placement import measure_rounding
 from foldshell.folding.quality import count_flipped, find_convex
 from foldshell.folding.settings import FoldSettings
 from foldshell.folding.shape import Shape
@@ -16,9 +17,10 @@ from foldshell.folding.terms import Target
 from foldshell.pattern.angles import measure_folds
 from foldshell.pattern.miura import size_miura
 from foldshell.pattern.sheet import Sheet, make_miura_sheet
-from foldshell.pattern.unfold import find_overlap, follow_path, unfold_panels
+from foldshell.pattern.unfold import Assembly, find_overlap, follow_path, unfold_panels
 
 ACCEPTED = 1e-9  # constraint residual and closures
+CLOSURE_ROUNDING = 1e4  # steps of the written coordinates that a closure may be off by
 OTHER_ANGLES_DEG = (70.0, 65.0, 75.0)  # starts to try when the given sector angle fails
 REFOLDED = 1e-10  # gap [m] between panels anywhere on the rigid path
 FIRM_MARGIN = 30.0  # times the weight that keeps corners convex, when nothing else helped
@@ -27,11 +29,15 @@ PATH_PARTS = np.linspace(0.0, 1.0, 21)
 
 @dataclass(frozen=True)
 class Attempt:
-    """One start and where it led; `faults` is empty when it is true origami."""
+    """One start and where it led; `faults` is empty when it is true origami.
+
+    `unfolded` is the sheet in the plane, None where the constraints are not met.
+    """
 
     sheet: Sheet
     solution: Solution
     iterations: int
+    unfolded: Assembly | None
     faults: tuple[str, ...]
 
 
@@ -55,7 +61,7 @@ def _fold_truly(sheet: Sheet, target: Target, settings: FoldSettings, rigid: boo
         if not attempts[-1].faults:
             break
     best = min(attempts, key=lambda a: (bool(a.faults), a.solution.residual))
-    return _finish(best, attempts, rigid)
+    return _finish(best, attempts, rigid, measure_rounding(target))
 
 
 def list_starts(sheet: Sheet, target: Target) -> Iterator[Sheet]:
@@ -82,15 +88,24 @@ def _attempt(
     soft = fold_softly(sheet, target, settings)
     solution = solve_exactly(sheet, target, settings.attract, soft.vertices, weights, rigid)
     iterations = soft.iterations + solution.iterations
-    return Attempt(sheet, solution, iterations, tuple(find_faults(solution, sheet)))
+    if not solution.residual <= ACCEPTED + allow_rounding(sheet, target):
+        return Attempt(sheet, solution, iterations, None, (solution.reason,))
+    unfolded = unfold_panels(solution.vertices, sheet.grid)
+    closure = ACCEPTED + CLOSURE_ROUNDING * measure_rounding(target)
+    faults = tuple(find_faults(solution.vertices, sheet, unfolded, closure))
+    return Attempt(sheet, solution, iterations, unfolded, faults)
 
 
-def find_faults(solution: Solution, sheet: Sheet) -> Iterator[str]:
-    """Say what keeps a solution from being true origami."""
-    vertices, grid = solution.vertices, sheet.grid
-    if not solution.residual <= ACCEPTED:
-        yield solution.reason
-        return
+def find_faults(
+    vertices: np.ndarray, sheet: Sheet, unfolded: Assembly, closure: float
+) -> Iterator[str]:
+    """Say what keeps a shape of met constraints from being true origami.
+
+    `closure` [m] is how far the copies of a vertex may lie apart in the unfolded sheet.
+    """
+    grid = sheet.grid
+    if not unfolded.closure <= closure:
+        yield f"panels part by {unfolded.closure:.1e} m when the sheet is unfolded"
     bent = int((~find_convex(vertices, grid.quads)).sum())
     if bent:
         yield f"{bent} panels not convex"
@@ -99,28 +114,26 @@ def find_faults(solution: Solution, sheet: Sheet) -> Iterator[str]:
         yield f"{flipped} folds turned over"
     if not (bent or flipped) and len(find_intersections(vertices, grid.facets)):
         yield "the sheet cuts itself"
+    if find_overlap(unfolded.vertices, grid):
+        yield "the unfolded pattern overlaps itself"
 
 
-def _finish(attempt: Attempt, attempts: list[Attempt], rigid: bool) -> Shape:
+def _finish(attempt: Attempt, attempts: list[Attempt], rigid: bool, rounding: float) -> Shape:
     sheet, vertices = attempt.sheet, attempt.solution.vertices
     residuals: dict[str, float] = {"constraint_residual": attempt.solution.residual}
     if "sector_angle_deg" in sheet.settings:
         residuals["start_sector_angle_deg"] = sheet.settings["sector_angle_deg"]
     iterations = sum(a.iterations for a in attempts)
-    if not attempt.solution.residual <= ACCEPTED:
-        reason = "; ".join(attempt.faults)
-        return Shape(vertices, sheet.flat, iterations, False, reason, residuals)
-    unfolded = unfold_panels(vertices, sheet.grid)
+    unfolded, faults = attempt.unfolded, list(attempt.faults)
+    if unfolded is None:
+        return Shape(vertices, sheet.flat, iterations, False, "; ".join(faults), residuals)
     residuals["unfold_closure_m"] = unfolded.closure
-    faults = list(attempt.faults)
-    if find_overlap(unfolded.vertices, sheet.grid):
-        faults.append("the unfolded pattern overlaps itself")
     if rigid:
         states, closure = follow_path(vertices, unfolded.vertices, sheet.grid, PATH_PARTS)
         cuts = sum(len(find_intersections(state, sheet.grid.facets)) for state in states[1::4])
         residuals["path_intersections"] = cuts
         residuals["refold_closure_m"] = closure
-        if not closure <= REFOLDED:
+        if not closure <= REFOLDED + CLOSURE_ROUNDING * rounding:
             faults.append(f"panels part by {closure:.1e} m on the folding path")
         if cuts:
             faults.append("the sheet cuts itself on the folding path")

@@ -22,6 +22,7 @@ from foldshell.folding.constraints import (
 )
 from foldshell.folding.levenberg import minimise_terms
 from foldshell.folding.normal_equations import NormalEquations, NotPositiveDefinite
+from foldshell.folding.placement import measure_rounding, round_as_written
 from foldshell.folding.problem import (
     Weights,
     attracted_vertices,
@@ -32,6 +33,7 @@ from foldshell.folding.terms import Attraction, Target, Term
 from foldshell.pattern.sheet import Sheet
 
 TOLERANCE = 1e-12  # of the constraints, non-dimensional
+ROUNDING = 64  # steps of the written coordinates that a residual may be off by
 CORNER_MARGIN, FOLD_MARGIN = math.radians(8), math.radians(5)
 
 
@@ -87,10 +89,28 @@ def solve_exactly(
             step_tolerance=1e-9 * target.span, equations=equations,
         )  # fmt: skip
         vertices, iterations = minimum.vertices, iterations + minimum.iterations
-    projected = project_vertices(_constraints(sheet, target, attract, 1.0, rigid), vertices)
-    return Solution(
-        projected.vertices, projected.residual, iterations + projected.iterations, projected.reason
-    )
+    constraints = _constraints(sheet, target, attract, 1.0, rigid)
+    projected = project_vertices(constraints, vertices)
+    written = round_as_written(projected.vertices, target)
+    residual = measure_residual(constraints, written)
+    reason = describe_residual(residual, TOLERANCE + allow_rounding(sheet, target))
+    return Solution(written, residual, iterations + projected.iterations, reason)
+
+
+def measure_residual(constraints: Sequence[Term], vertices: np.ndarray) -> float:
+    """max |r| over all constraints at vertices (V, 3)."""
+    return max(float(np.abs(term.evaluate(vertices)[0]).max()) for term in constraints)
+
+
+def allow_rounding(sheet: Sheet, target: Target) -> float:
+    """What writing the coordinates can add to a non-dimensional residual."""
+    return ROUNDING * measure_rounding(target) / reference_length(sheet)
+
+
+def describe_residual(residual: float, allowed: float) -> str:
+    """Say how far the constraints are met."""
+    met = residual <= allowed
+    return f"constraints {'met to' if met else 'left at'} {residual:.1e}"
 
 
 def project_vertices(
@@ -99,7 +119,8 @@ def project_vertices(
     """Gauss-Newton steps of least norm onto r = 0, until r <= TOLERANCE and falls no further.
 
     (J^T J + e I) dx = -J^T r with a tiny e: dependent constraints do no harm, and each step's
-    error is taken up by the next.
+    error is taken up by the next. What is returned is the state of the least residual, and that
+    residual, whether or not it is small.
     """
     equations = NormalEquations([term.columns for term in constraints], start.size)
     vertices, best, least, iteration = start, start, np.inf, 0
@@ -118,9 +139,7 @@ def project_vertices(
             vertices = vertices + equations.solve(matrix, shift, -gradient).reshape(-1, 3)
         except NotPositiveDefinite:
             break
-    if least <= TOLERANCE:
-        return Solution(best, least, iteration, f"constraints met to {least:.1e}")
-    return Solution(start, least, iteration, f"constraints left at {least:.1e}")
+    return Solution(best, least, iteration, describe_residual(least, TOLERANCE))
 
 
 def _constraints(

@@ -11,10 +11,17 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from foldshell.folding.constraints import Fairness, find_chains, keep_folded
-from foldshell.folding.exact import FOLD_MARGIN, Solution, project_vertices
+from foldshell.folding.exact import (
+    FOLD_MARGIN,
+    Solution,
+    allow_rounding,
+    measure_residual,
+    project_vertices,
+)
 from foldshell.folding.intersections import find_intersections
 from foldshell.folding.levenberg import Minimum, minimise_terms
 from foldshell.folding.normal_equations import NormalEquations
+from foldshell.folding.placement import round_as_written
 from foldshell.folding.problem import (
     STEEP,
     Weights,
@@ -90,7 +97,8 @@ def fold_isometrically(sheet: Sheet, target: Target, settings: FoldSettings) -> 
         attempts.append(_attempt(start, target, settings, stages, least))
         if attempts[-1].distance <= CLOSE and not attempts[-1].crumpled:
             break
-    best = min(attempts, key=lambda a: (a.solution.residual > STRAIN, a.crumpled, a.distance))
+    allowed = STRAIN + allow_rounding(sheet, target)
+    best = min(attempts, key=lambda a: (a.solution.residual > allowed, a.crumpled, a.distance))
     residuals, reason = {"constraint_residual": best.solution.residual}, best.solution.reason
     if "sector_angle_deg" in best.sheet.settings:
         angle = best.sheet.settings["sector_angle_deg"]
@@ -102,7 +110,7 @@ def fold_isometrically(sheet: Sheet, target: Target, settings: FoldSettings) -> 
             reason += f", the best of {len(attempts)} tried"
     return Shape(
         best.solution.vertices, best.sheet.flat, sum(a.solution.iterations for a in attempts),
-        best.solution.residual <= STRAIN, reason, residuals,
+        best.solution.residual <= allowed, reason, residuals,
     )  # fmt: skip
 
 
@@ -186,10 +194,10 @@ def _attempt(
         )
         iterations += relaxed.iterations
         projected = project_vertices([lengths], relaxed.vertices)
-    solution = Solution(
-        projected.vertices, projected.residual, iterations + projected.iterations,
-        f"edge lengths kept to {projected.residual:.1e}",
-    )  # fmt: skip
+    written = round_as_written(projected.vertices, target)
+    residual = measure_residual([lengths], written)
+    iterations += projected.iterations
+    solution = Solution(written, residual, iterations, f"edge lengths kept to {residual:.1e}")
     points = solution.vertices[attracted_vertices(sheet, settings.attract)]
     distance = root_mean_square(measure_distances(points, target)) / target.span
     return Attempt(sheet, solution, distance, _is_crumpled(solution.vertices, sheet, target, least))

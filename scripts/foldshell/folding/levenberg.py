@@ -14,7 +14,8 @@ class Minimum:
     """Where a minimisation stopped, and why.
 
     `cost` is half the sum of squares, `gradient` its largest slope, `converged` tells whether
-    a tolerance was met rather than the limit on iterations.
+    a tolerance was met rather than the limit on iterations, `fall` is the share of itself by
+    which the cost fell last.
     """
 
     vertices: np.ndarray
@@ -23,6 +24,7 @@ class Minimum:
     iterations: int
     converged: bool
     reason: str
+    fall: float = 0.0
 
 
 def minimise_terms(
@@ -46,7 +48,7 @@ def minimise_terms(
     equations = equations or NormalEquations([t.columns for t in terms], start.size)
     vertices, growth = start, 2.0
     rows = [term.evaluate(vertices) for term in terms]
-    cost, reason, iteration = half_squares(rows), "", 0
+    cost, reason, iteration, fall = half_squares(rows), "", 0, np.inf
     matrix, gradient = equations.assemble(rows)
     while not reason and iteration < max_iterations:
         iteration += 1
@@ -63,6 +65,7 @@ def minimise_terms(
             damping, growth = damping * max(1 / 5, 1 - (2 * gain - 1) ** 3), 2.0
             if cost - trial_cost <= cost_tolerance * cost:
                 reason = f"cost fell by less than {cost_tolerance:g} of itself"
+            fall = (cost - trial_cost) / cost
             vertices, cost = trial, trial_cost
             matrix, gradient = equations.assemble(rows)
         elif step is not None:
@@ -70,7 +73,8 @@ def minimise_terms(
         if step is not None and np.abs(step).max() <= step_tolerance:
             reason = reason or f"no vertex moved further than {step_tolerance:g} m"
     said = reason or f"stopped at the limit of {max_iterations} iterations"
-    return Minimum(vertices, cost, float(np.abs(gradient).max()), iteration, bool(reason), said)
+    slope = float(np.abs(gradient).max())
+    return Minimum(vertices, cost, slope, iteration, bool(reason), said, fall)
 
 
 def half_squares(rows: Sequence[tuple[np.ndarray, np.ndarray]]) -> float:

@@ -4,34 +4,30 @@ Closest points by VTK's static cell locator; normals are interpolated from the v
 the distance is smooth where facets meet.
 """
 
-import math
-import warnings
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
-from typing import TYPE_CHECKING
 
 import numpy as np
 
-from foldshell.files.errors import InputError
+from foldshell.files.meshes.surface import read_surface
 
-if TYPE_CHECKING:
-    import pyvista
-
-SUFFIXES = (".stl", ".obj", ".vtk", ".vtu", ".ply")
-STEEPEST = math.radians(85)  # slope of a triangle; walls have no one height per place
 SAMPLES = 801  # points of a central section
 FLATTEN = 1e-6  # heights are scaled by it where only the plan position counts
 
 
 @dataclass(frozen=True)
 class MeshTarget:
-    """Triangles (F, 3) over vertices (V, 3) [m], centred on the plan, seen from above."""
+    """Triangles (F, 3) over vertices (V, 3) [m] from the middle of the plan, seen from above.
+
+    `origin` [m] is where that middle stands in the space of the file.
+    """
 
     name: str
     span: float
     vertices: np.ndarray
     triangles: np.ndarray
+    origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
 
     @property
     def height(self) -> float:
@@ -146,109 +142,11 @@ def _find_weights(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
 
 
 def read_mesh_target(path: str | Path, span: float) -> MeshTarget:
-    """Read a target surface from a mesh file and centre it on the plan.
+    """Read a target surface from a mesh file; `origin` says where the middle of its plan stands.
 
-    Raises InputError for a file that is missing, damaged or empty, closed, folded over in plan,
-    with holes or gaps in the plan, or of another scale than the span.
+    Raises InputError for a file that cannot be read, and for a surface that is closed, folded
+    over in plan, with holes or gaps in the plan, or of another scale than the span.
     """
-    vertices, triangles = _read_triangles(Path(path))
-    vertices = vertices - [*(0.5 * (vertices.min(axis=0) + vertices.max(axis=0)))[:2], 0.0]
-    _check_scale(path, vertices, span)
-    _check_surface(path, vertices, triangles)
-    target = MeshTarget(Path(path).stem, span, vertices, triangles)
-    _check_cover(path, target)
-    return target
-
-
-def _read_triangles(path: Path) -> tuple[np.ndarray, np.ndarray]:
-    import pyvista
-
-    if path.suffix.lower() not in SUFFIXES:
-        raise InputError(f"{path}: suffix {path.suffix!r}: must be one of {', '.join(SUFFIXES)}")
-    if not path.is_file():
-        raise InputError(f"{path}: no such file: a triangle mesh in metres is needed")
-    try:
-        with warnings.catch_warnings(record=True) as caught, pyvista.vtk_verbosity("off"):
-            warnings.simplefilter("always")
-            mesh = pyvista.read(path)
-            _check_numbers(path, mesh)
-            mesh = mesh.extract_surface(algorithm=None).triangulate().clean()
-    except InputError:
-        raise
-    except Exception as error:  # the readers raise what they like
-        raise InputError(f"{path}: cannot be read as a mesh ({error})") from None
-    if any("raised an error" in str(warning.message) for warning in caught):
-        raise InputError(f"{path}: damaged, empty or cut off: a whole mesh file is needed")
-    triangles = np.asarray(mesh.faces).reshape(-1, 4)[:, 1:]
-    vertices = np.asarray(mesh.points, dtype=float)
-    if not len(triangles):
-        raise InputError(f"{path}: 0 triangles: the file is empty or cut off")
-    if not np.isfinite(vertices).all():
-        raise InputError(f"{path}: coordinates that are not finite: must be numbers")
-    corners = vertices[triangles]
-    area = np.linalg.norm(
-        np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]), axis=1
-    )
-    return vertices, triangles[area > 1e-14 * area.max()]
-
-
-def _check_numbers(path: Path, mesh: "pyvista.DataSet") -> None:
-    """Refuse cells that name vertices the file does not hold: VTK reads past its arrays."""
-    if hasattr(mesh, "GetPolys"):
-        cells = mesh.GetPolys()
-    elif hasattr(mesh, "GetCells"):
-        cells = mesh.GetCells()
-    else:
-        return
-    count = cells.GetConnectivityArray().GetNumberOfTuples() if cells else 0
-    low, high = cells.GetConnectivityArray().GetRange() if count else (0, -1)
-    if low < 0 or high >= mesh.n_points:
-        wrong = low if low < 0 else high
-        raise InputError(
-            f"{path}: a cell of vertex {wrong:.0f} (counted from 0): must be below {mesh.n_points}"
-        )
-
-
-def _check_scale(path: str | Path, vertices: np.ndarray, span: float) -> None:
-    width = np.ptp(vertices[:, :2], axis=0)
-    if (width < 0.9 * span).any() or (width > 3 * span).any():
-        hint = "; it looks like millimetres" if (width > 300 * span).all() else ""
-        raise InputError(
-            f"{path}: plan {width[0]:g} x {width[1]:g} m: must cover the span of {span:g} m "
-            f"and be at most three times as large{hint}"
-        )
-
-
-def _check_surface(path: str | Path, vertices: np.ndarray, triangles: np.ndarray) -> None:
-    edges = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
-    _, count = np.unique(edges, axis=0, return_counts=True)
-    if (count > 2).any():
-        raise InputError(f"{path}: {(count > 2).sum()} edges with three or more triangles")
-    if not (count == 1).any():
-        raise InputError(f"{path}: a closed surface: an open one over the plan is needed")
-    corners = vertices[triangles]
-    double = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    area, plan = np.linalg.norm(double, axis=1), np.abs(double[:, 2])
-    walls = (plan < math.cos(STEEPEST) * area) & (area > 1e-6 * area.sum())
-    if walls.any():
-        raise InputError(
-            f"{path}: {walls.sum()} triangles steeper than {math.degrees(STEEPEST):.0f} deg: "
-            "a surface without walls is needed, z up"
-        )
-    low, high = vertices[:, :2].min(axis=0), vertices[:, :2].max(axis=0)
-    if plan.sum() / 2 > 1.01 * np.prod(high - low):
-        raise InputError(f"{path}: surface lies over itself in plan: one height per place is due")
-
-
-def _check_cover(path: str | Path, target: MeshTarget) -> None:
-    half = target.span / 2
-    along = np.linspace(-0.9 * half, 0.9 * half, 41)
-    x, y = (k.ravel() for k in np.meshgrid(along, along))
-    found = target._look_down(x, y)[0]
-    gap = np.hypot(found[:, 0] - x, found[:, 1] - y)
-    worst = int(gap.argmax())
-    if gap[worst] > 0.02 * target.span:
-        raise InputError(
-            f"{path}: no surface above x = {x[worst]:.3g}, y = {y[worst]:.3g} m (from the middle "
-            f"of its plan): must cover the square plan of side {target.span:g} m"
-        )
+    surface = read_surface(path, span)
+    origin = (*surface.middle, 0.0)
+    return MeshTarget(Path(path).stem, span, surface.vertices - origin, surface.triangles, origin)

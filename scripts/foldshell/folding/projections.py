@@ -33,7 +33,7 @@ def average_projections(
     vertices, velocity, best = start, np.zeros_like(start), start
     history: list[float] = []
     reason, iteration = "", 0
-    columns = [term.columns for term in terms]
+    columns, earlier = [term.columns for term in terms], np.inf
     while not reason and iteration < max_iterations:
         iteration += 1
         rows = [term.evaluate(vertices) for term in terms]
@@ -54,6 +54,7 @@ def average_projections(
     return Minimum(
         best, history[-1], float(np.abs(velocity).max()), iteration, bool(reason),
         reason or f"stopped at the limit of {max_iterations} iterations",
+        earlier / history[-1] - 1 if history[-1] > 0 else 0.0,
     )  # fmt: skip
 
 

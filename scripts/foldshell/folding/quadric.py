@@ -20,6 +20,11 @@ class Quadric:
     along_y: float
     twist: float
 
+    @property
+    def origin(self) -> tuple[float, float, float]:
+        """The middle of the plan stands at 0 [m]."""
+        return (0.0, 0.0, 0.0)
+
     def evaluate_height(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """z(x, y) [m]."""
         return self.apex + self.along_x * x**2 + self.along_y * y**2 + self.twist * x * y

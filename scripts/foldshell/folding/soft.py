@@ -5,6 +5,7 @@ from collections.abc import Sequence
 import numpy as np
 
 from foldshell.folding.levenberg import Minimum, minimise_terms
+from foldshell.folding.placement import round_as_written
 from foldshell.folding.problem import build_terms, place_sheet
 from foldshell.folding.projections import average_projections
 from foldshell.folding.settings import FoldSettings
@@ -14,6 +15,7 @@ from foldshell.pattern.sheet import Sheet
 
 # Averaged projections creep: many more iterations, judged over a window of them.
 EXPLICIT_ITERATIONS, EXPLICIT_TOLERANCE = 50, 10.0
+SETTLED = 1e-2  # last fall of the cost, of itself, from which the shape hardly changes any more
 
 
 def fold_softly(sheet: Sheet, target: Target, settings: FoldSettings) -> Shape:
@@ -21,8 +23,10 @@ def fold_softly(sheet: Sheet, target: Target, settings: FoldSettings) -> Shape:
     terms = build_terms(sheet, target, settings.attract, settings.weights)
     start = place_sheet(sheet, target, settings.attract)
     minimum = minimise_softly(terms, start, settings, target.span)
+    vertices = round_as_written(minimum.vertices, target)
+    settled = minimum.converged or minimum.fall <= SETTLED
     return Shape(
-        minimum.vertices, sheet.flat, minimum.iterations, minimum.converged, minimum.reason,
+        vertices, sheet.flat, minimum.iterations, settled, minimum.reason,
         {"cost": minimum.cost},
     )  # fmt: skip
 

@@ -1,10 +1,9 @@
 """Targets by name: the surfaces of the study, or a mesh file."""
 
-from pathlib import Path
-
 import numpy as np
 
-from foldshell.folding.mesh_target import SUFFIXES, MeshTarget, read_mesh_target
+from foldshell.files.meshes.read import is_mesh_file
+from foldshell.folding.mesh_target import MeshTarget, read_mesh_target
 from foldshell.folding.quadric import SURFACES, Quadric, make_quadric
 
 
@@ -13,7 +12,7 @@ def make_target(surface: str, span_m: float, height_m: float) -> Quadric | MeshT
 
     `surface` is one of SURFACES or a mesh file in metres, whose heights are its own.
     """
-    if surface not in SURFACES and Path(surface).suffix.lower() in SUFFIXES:
+    if surface not in SURFACES and is_mesh_file(surface):
         if not span_m > 0:
             raise ValueError(f"span {span_m}: must be positive")
         return read_mesh_target(surface, float(span_m))

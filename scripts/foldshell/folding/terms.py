@@ -24,7 +24,12 @@ class Term(Protocol):
 
 
 class Target(Protocol):
-    """A surface that vertices are drawn to, over a square plan about the origin."""
+    """A surface that vertices are drawn to, over a square plan, described from its middle."""
+
+    @property
+    def origin(self) -> tuple[float, float, float]:
+        """Where the middle of the plan stands in space [m]."""
+        ...
 
     @property
     def span(self) -> float:

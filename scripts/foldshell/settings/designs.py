@@ -10,14 +10,14 @@ from pathlib import Path
 from typing import Any
 
 from foldshell.files.errors import InputError
+from foldshell.files.meshes.read import FORMATS, is_mesh_file
 from foldshell.settings.config_file import read_text
 from foldshell.settings.nearest import hint_nearest
 from foldshell.settings.options import Settings
-from foldshell.settings.schema import load_schema, validate
+from foldshell.settings.schema import TABLE, load_schema, validate
 from foldshell.settings.units import convert_units
 
 SURFACES = ("paraboloid", "hypar", "hypar_twist", "arch", "arch_strip")
-SURFACE_FILES = (".3dm", ".obj", ".off", ".ply", ".stl", ".vtk", ".vtp", ".vtu", ".msh")
 COLUMNS = (
     "design",
     "pattern",
@@ -36,7 +36,7 @@ COLUMNS = (
 _RESERVED = {"archive", "bench", "figures", "logs", "report", "schemas"}
 _RESERVED |= {"con", "prn", "aux", "nul"}
 _RESERVED |= {f"{device}{number}" for device in ("com", "lpt") for number in range(1, 10)}
-_NUMBER = re.compile(r"[-+]?(0|[1-9][0-9]*)(\.[0-9]+)?([eE][-+]?[0-9]{1,2})?")
+_NUMBER = re.compile(r"[-+]?(0|[1-9][0-9]*)(\.[0-9]*)?([eE][-+]?[0-9]{1,3})?")
 _DESIGNS_MAX = 10_000
 
 
@@ -113,7 +113,7 @@ def _read_rows(path: Path) -> list[tuple[int, dict[str, str]]]:
     _check_header(header, f"{path}: line {header_line}")
     if len(lines) == 1:
         raise InputError(f"{path}: no design stands below the header: one line per design is due")
-    if len(lines) > _DESIGNS_MAX:
+    if len(lines) - 1 > _DESIGNS_MAX:
         raise InputError(f"{path}: {len(lines) - 1} designs: at most {_DESIGNS_MAX} are allowed")
     rows = []
     for number, line in lines[1:]:
@@ -159,7 +159,7 @@ def _make_design(
     where = f"{place}: design {cells['design']!r}"
     given = {column: _parse(column, cell) for column, cell in cells.items() if cell}
     row = {**defaults, **given}
-    validate(row, designs_schema(), where)
+    validate(row, designs_schema(), where, TABLE)
     _check_name(row["design"], where)
     _check_surface(row["surface"], where)
     _check_edge_beam(row, where)
@@ -176,13 +176,15 @@ def _make_design(
 
 
 def _parse(column: str, cell: str) -> Any:
-    """Return the number in a cell of a number column; other text stays, for the schema to name."""
+    """Return the number in a cell of a number column; other text stays, for the schema to name.
+
+    A whole number may be written with a decimal point, as in settings files: 15.0 is 15.
+    """
     kind = designs_schema()["properties"][column]["type"]
-    if kind == "integer" and re.fullmatch(r"[-+]?(0|[1-9][0-9]{0,9})", cell):
-        return int(cell)
-    if kind == "number" and _NUMBER.fullmatch(cell):
-        return float(cell)
-    return cell
+    if kind not in ("integer", "number") or not _NUMBER.fullmatch(cell):
+        return cell
+    value = float(cell)
+    return int(value) if kind == "integer" and value.is_integer() else value
 
 
 def _check_name(name: str, where: str) -> None:
@@ -200,15 +202,14 @@ def design_name_pattern() -> str:
 def _check_surface(surface: str, where: str) -> None:
     if surface in SURFACES:
         return
-    path = Path(surface)
-    if path.suffix.lower() in SURFACE_FILES:
-        if not path.is_file():
+    if is_mesh_file(surface):
+        if not Path(surface).exists():
             raise InputError(f"{where}: surface: {surface!r}: no such file")
         return
     hint = hint_nearest(surface.casefold(), SURFACES)
     raise InputError(
         f"{where}: surface: {surface!r}: one of {', '.join(SURFACES)} or a mesh file "
-        f"({', '.join(SURFACE_FILES)}) is allowed{hint}"
+        f"({', '.join(FORMATS)}) is allowed{hint}"
     )
 
 

@@ -4,8 +4,10 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
+from foldshell.files.errors import InputError
+from foldshell.files.meshes.surface import read_surface
 from foldshell.settings.config_file import read_config
-from foldshell.settings.designs import Design, check_defaults, read_designs
+from foldshell.settings.designs import SURFACES, Design, check_defaults, read_designs
 from foldshell.settings.make import config_schema, make_settings
 from foldshell.settings.options import Settings
 from foldshell.settings.schema import validate
@@ -26,4 +28,22 @@ def load_study(
         source = f"{file} with --config"
     settings = make_settings(config, source)
     check_defaults(settings, source)
-    return settings, read_designs(settings.designs, settings)
+    designs = read_designs(settings.designs, settings)
+    check_surface_files(designs, str(settings.designs))
+    return settings, designs
+
+
+def check_surface_files(designs: Iterable[Design], source: str) -> None:
+    """Raise `InputError` for a design whose surface is a mesh file that cannot be its target.
+
+    Each file is read once for each span, whatever the number of designs.
+    """
+    seen = set()
+    for design in designs:
+        if design.surface in SURFACES or (design.surface, design.span) in seen:
+            continue
+        seen.add((design.surface, design.span))
+        try:
+            read_surface(design.surface, design.span)
+        except InputError as error:
+            raise InputError(f"{source}: design {design.name!r}: surface: {error}") from None

@@ -15,6 +15,7 @@ from foldshell.files.plain_text import find_unsafe
 from foldshell.settings.nearest import find_nearest, hint_nearest
 
 CONFIG_FOLDER = Path(__file__).resolve().parents[3] / "config"
+YAML, TABLE = "yaml", "table"
 _NUMBERS = {"number": "a number", "integer": "a whole number"}
 _TYPES = {**_NUMBERS, "string": "text", "boolean": "true or false", "array": "a list"}
 
@@ -107,13 +108,16 @@ def _describe_range(schema: Mapping[str, Any]) -> str:
     return unit + (" " if words else "") + " and ".join(words)
 
 
-def validate(data: Any, schema: Mapping[str, Any], source: str) -> None:
-    """Raise `InputError` with the first thing in `data` that `schema` does not allow."""
+def validate(data: Any, schema: Mapping[str, Any], source: str, kind: str = YAML) -> None:
+    """Raise `InputError` with the first thing in `data` that `schema` does not allow.
+
+    `kind` is that of the file that `data` come from, YAML or TABLE: hints speak of it.
+    """
     _refuse_unfit(data, source, "")
     validator = jsonschema.Draft202012Validator(schema)
     errors = sorted(validator.iter_errors(data), key=_rank)
     if errors:
-        raise InputError(f"{source}: {_sentence(errors[0], schema)}")
+        raise InputError(f"{source}: {_sentence(errors[0], schema, kind)}")
 
 
 def _rank(error: jsonschema.ValidationError) -> tuple[bool, list[str]]:
@@ -140,7 +144,7 @@ def join_place(place: str, key: Any) -> str:
     return f"{place}.{key}" if place else str(key)
 
 
-def _sentence(error: jsonschema.ValidationError, schema: Mapping[str, Any]) -> str:
+def _sentence(error: jsonschema.ValidationError, schema: Mapping[str, Any], kind: str) -> str:
     place = ""
     for step in error.absolute_path:
         place = join_place(place, step)
@@ -159,7 +163,7 @@ def _sentence(error: jsonschema.ValidationError, schema: Mapping[str, Any]) -> s
             f"{place}: {error.instance!r}: a name of up to 16 letters, digits and _, "
             "beginning with a letter, is allowed"
         )
-    hint = describe_hint(error.instance, part)
+    hint = describe_hint(error.instance, part, kind)
     return f"{place}: {error.instance!r}: {describe_allowed(part)} is allowed{hint}"
 
 
@@ -185,7 +189,7 @@ def describe_unknown_key(
     return f"{place}: unknown key, allowed are {', '.join(known)}"
 
 
-def describe_hint(value: Any, schema: Mapping[str, Any]) -> str:
+def describe_hint(value: Any, schema: Mapping[str, Any], kind: str = YAML) -> str:
     """Say what was probably meant: a decimal comma, a number with an exponent, a near name."""
     if isinstance(value, str) and "enum" in schema:
         return hint_nearest(value.casefold(), schema["enum"])
@@ -193,6 +197,8 @@ def describe_hint(value: Any, schema: Mapping[str, Any]) -> str:
         return ""
     if re.fullmatch(r"[-+]?\d+,\d+", value.strip()):
         return f", write {value.strip().replace(',', '.')} with a decimal point"
+    if kind == TABLE:
+        return _describe_table_number(value)
     try:
         number = float(value)
     except ValueError:
@@ -202,3 +208,17 @@ def describe_hint(value: Any, schema: Mapping[str, Any]) -> str:
     mantissa, _, exponent = f"{number:e}".partition("e")
     mantissa = mantissa.rstrip("0") + ("0" if mantissa.rstrip("0").endswith(".") else "")
     return f", the value is text in YAML: write {mantissa}e{exponent} without quotes"
+
+
+def _describe_table_number(value: str) -> str:
+    """Say what is wrong with a cell of a table that is no plain number."""
+    if re.fullmatch(r"""(["']).*\1""", value):
+        return ", write it without quotes"
+    unit = re.fullmatch(r"[-+0-9.]+ *(m|mm|cm|in|ft|deg|%)", value)
+    if unit:
+        return f", write the number alone, without {unit[1]}"
+    if re.fullmatch(r"[-+]?0[0-9]+(\.[0-9]*)?", value):
+        return ", write it without leading zeros"
+    if re.fullmatch(r"[-+]?\.[0-9]+", value):
+        return ", write a digit before the point"
+    return ", the value is text"

@@ -118,6 +118,31 @@ def test_target_surface_file(tmp_path):
         read(tmp_path, f"design\tsurface\na\t{tmp_path}/none.vtu\n")
 
 
+def test_whole_numbers_may_have_a_decimal_point_as_in_yaml(tmp_path):
+    (design,) = read(tmp_path, "design\tzigzag\tstrip\tspan_m\na\t9.0\t1e1\t28.\n")
+    assert (design.zigzag, design.strip, design.span) == (9, 10, 28.0)
+    assert isinstance(design.zigzag, int)
+    assert make_settings({"defaults": {"zigzag": 9.0}}).defaults.zigzag == 9
+
+
+@pytest.mark.parametrize(
+    ("value", "hint"),
+    [('"28"', "without quotes"), ("28 m", "without m"), (".5", "before the point")],
+)
+def test_hints_speak_of_tables(tmp_path, value, hint):
+    with pytest.raises(InputError, match=hint) as caught:
+        read(tmp_path, f"design\tspan_m\na\t{value}\n")
+    assert "YAML" not in str(caught.value)
+
+
+def test_ten_thousand_designs_are_allowed_and_no_more(tmp_path):
+    """The header is no design."""
+    lines = ["design", *(f"d{number}" for number in range(10_000))]
+    assert len(read(tmp_path, "\n".join(lines) + "\n")) == 10_000
+    with pytest.raises(InputError, match="10001 designs: at most 10000"):
+        read(tmp_path, "\n".join([*lines, "one_more"]) + "\n")
+
+
 def cell(column: str, value: str) -> str:
     cells = GOOD.split("\t")
     cells[COLUMNS.index(column)] = value

@@ -1,0 +1,1 @@
+"""Meshes from files: one reader for all formats, strict about what would be misread."""

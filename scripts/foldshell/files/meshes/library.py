@@ -1,0 +1,48 @@
+"""Formats that libraries read: in a process of its own, whose crash is a refusal."""
+
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+import numpy as np
+
+from foldshell.files.meshes import child
+from foldshell.files.meshes.model import Mesh, MeshError, make_mesh
+
+SECONDS = 120
+"""Time that reading may take."""
+
+
+def read_by_library(path: str | Path) -> Mesh:
+    """Read a .vtk, .vtu, .vtp or .msh file. Raises `MeshError`, also where the reader crashes."""
+    with tempfile.TemporaryDirectory(prefix="foldshell-") as folder:
+        out = Path(folder) / "mesh.npz"
+        code, said = _run([sys.executable, child.__file__, str(Path(path).resolve()), str(out)])
+        if code == child.REFUSED:
+            raise MeshError(said)
+        if code < 0:
+            name = signal.Signals(-code).name
+            raise MeshError(f"the library that reads it was ended by {name}: damaged or too large")
+        if code:
+            raise MeshError("the library that reads it failed: damaged, or another format")
+        with np.load(out, allow_pickle=False) as arrays:
+            vertices, sizes, corners = (arrays[k] for k in ("vertices", "sizes", "corners"))
+    return make_mesh(vertices, sizes, corners, vertices.dtype == np.float32)
+
+
+def _run(command: list[str]) -> tuple[int, str]:
+    """Exit code of a command, and the line that it printed last."""
+    quiet = {**os.environ, "VTK_SILENCE_GET_VOID_POINTER_WARNINGS": "1"}
+    try:
+        ended = subprocess.run(
+            command, stdin=subprocess.DEVNULL, capture_output=True, timeout=SECONDS, env=quiet
+        )
+    except subprocess.TimeoutExpired:
+        raise MeshError(
+            f"takes longer than {SECONDS} s to be read: damaged, or too large"
+        ) from None
+    lines = ended.stdout.decode("utf-8", "replace").strip().splitlines()
+    return ended.returncode, lines[-1] if lines else "damaged"

@@ -1,0 +1,160 @@
+"""Triangles of a polygon mesh: vertices merged, polygons split, what has no area left out."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from foldshell.files.meshes.model import Mesh, MeshError, count
+
+NEAR = 1e-6  # of the mesh's size: border vertices that lie so near are one
+FLAT = 1e-14  # of the largest area: triangles below it are no triangles
+
+
+@dataclass(frozen=True)
+class Triangles:
+    """Vertices (V, 3), all of them used, triangles (F, 3), and what was left out."""
+
+    vertices: np.ndarray
+    triangles: np.ndarray
+    notes: tuple[str, ...] = ()
+
+
+def make_triangles(mesh: Mesh) -> Triangles:
+    """Merge equal vertices and split polygons into triangles.
+
+    Polygons are split along diagonals inside them; triangles without area and those that stand
+    twice are left out, with a note. Raises `MeshError` where none remains.
+    """
+    vertices, place = _merge_equal(mesh.vertices)
+    triangles = _split(vertices, mesh.starts, place[mesh.corners])
+    triangles = _merge_near(vertices, triangles)
+    area = measure_double_areas(vertices, triangles)
+    flat = ~(area > FLAT * area.max(initial=0.0))
+    notes = [f"{count(int(flat.sum()), 'triangle')} without area left out"] if flat.any() else []
+    triangles = triangles[~flat]
+    if not len(triangles):
+        raise MeshError("0 triangles with an area: a mesh of faces is needed")
+    _, first = np.unique(np.sort(triangles, axis=1), axis=0, return_index=True)
+    if len(first) < len(triangles):
+        more = len(triangles) - len(first)
+        notes.append(f"{count(more, 'triangle')} that stood twice left out")
+        triangles = triangles[np.sort(first)]
+    used, triangles = np.unique(triangles, return_inverse=True)
+    return Triangles(vertices[used], triangles.reshape(-1, 3), (*mesh.notes, *notes))
+
+
+def measure_double_areas(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """|e1 x e2|: twice the areas (F,) of triangles (F, 3)."""
+    corners = vertices[triangles]
+    one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    return np.linalg.norm(np.cross(one, two), axis=1)
+
+
+def find_border(triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Edges (E, 2) of triangles (F, 3) and the number of triangles (E,) at each."""
+    edges = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
+    return np.unique(edges, axis=0, return_counts=True)
+
+
+def _merge_equal(vertices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Distinct vertices in the order of the file, and the row of each vertex among them."""
+    order = np.lexsort((vertices + 0.0).T)
+    ordered = vertices[order]
+    new = np.ones(len(order), dtype=bool)
+    new[1:] = (ordered[1:] != ordered[:-1]).any(axis=1)
+    group = np.empty(len(order), dtype=np.int64)
+    group[order] = np.cumsum(new) - 1
+    first = np.full(int(new.sum()), len(order), dtype=np.int64)
+    np.minimum.at(first, group, np.arange(len(order)))
+    rank = np.argsort(np.argsort(first))
+    return vertices[np.sort(first)], rank[group]
+
+
+def _split(vertices: np.ndarray, starts: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """Triangles (F, 3) of all polygons, those of triangles and quadrilaterals at once."""
+    sizes = np.diff(starts)
+    parts = [corners[starts[:-1][sizes == 3][:, None] + np.arange(3)]]
+    quads = corners[starts[:-1][sizes == 4][:, None] + np.arange(4)]
+    parts.append(_split_quads(vertices, quads))
+    parts += [
+        cut_ears(vertices, corners[starts[k] : starts[k + 1]]) for k in np.flatnonzero(sizes > 4)
+    ]
+    kinds = [np.flatnonzero(sizes == 3), np.repeat(np.flatnonzero(sizes == 4), 2)]
+    kinds += [
+        np.full(len(part), k) for part, k in zip(parts[2:], np.flatnonzero(sizes > 4), strict=True)
+    ]
+    triangles = np.concatenate(parts)[np.argsort(np.concatenate(kinds), kind="stable")]
+    distinct = (triangles != np.roll(triangles, 1, axis=1)).all(axis=1)
+    return triangles[distinct]
+
+
+def _split_quads(vertices: np.ndarray, quads: np.ndarray) -> np.ndarray:
+    """Split quadrilaterals (Q, 4) along the shorter diagonal that lies inside: (2Q, 3)."""
+    a, b, c, d = (vertices[quads[:, k]] for k in range(4))
+    normal = np.cross(c - a, d - b)
+
+    def least_turn(p: np.ndarray, q: np.ndarray, r: np.ndarray, s: np.ndarray) -> np.ndarray:
+        """The smaller of the areas of p q r and p r s, seen along the normal."""
+        one, two = np.cross(q - p, r - p), np.cross(r - p, s - p)
+        return np.minimum((one * normal).sum(axis=1), (two * normal).sum(axis=1))
+
+    along_ac, along_bd = least_turn(a, b, c, d), least_turn(b, c, d, a)
+    shorter = np.linalg.norm(c - a, axis=1) <= np.linalg.norm(d - b, axis=1)
+    use_ac = np.where((along_ac > 0) == (along_bd > 0), shorter, along_ac > 0)[:, None]
+    first = np.where(use_ac, quads[:, [0, 1, 2]], quads[:, [0, 1, 3]])
+    second = np.where(use_ac, quads[:, [0, 2, 3]], quads[:, [1, 2, 3]])
+    return np.stack([first, second], axis=1).reshape(-1, 3)
+
+
+def cut_ears(vertices: np.ndarray, polygon: np.ndarray) -> np.ndarray:
+    """Triangles (k - 2, 3) of one polygon (k,): ears cut off in its mean plane, the best first."""
+    points = vertices[polygon] - vertices[polygon].mean(axis=0)
+    normal = np.cross(points, np.roll(points, -1, axis=0)).sum(axis=0)
+    axis = int(np.abs(normal).argmax())
+    plane = np.delete(points, axis, axis=1) * ([1, -1] if axis == 1 else [1, 1])
+    plane = plane if normal[axis] > 0 else plane[:, ::-1]
+    left, triangles = list(range(len(polygon))), []
+    while len(left) > 3:
+        ear = max(range(len(left)), key=lambda k: _judge_ear(plane, left, k))
+        triangles.append([left[ear - 1], left[ear], left[(ear + 1) % len(left)]])
+        del left[ear]
+    return polygon[np.array([*triangles, left])]
+
+
+def _judge_ear(plane: np.ndarray, left: list[int], k: int) -> float:
+    """Shape of the ear at place k, larger for a better one, below 0 for none."""
+    p, q, r = plane[left[k - 1]], plane[left[k]], plane[left[(k + 1) % len(left)]]
+
+    def turn(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
+        return (b[0] - a[0]) * (c[..., 1] - a[1]) - (b[1] - a[1]) * (c[..., 0] - a[0])
+
+    area = float(turn(p, q, r))
+    sides = float(((q - p) ** 2).sum() + ((r - q) ** 2).sum() + ((p - r) ** 2).sum())
+    others = [i for i in left if i not in (left[k - 1], left[k], left[(k + 1) % len(left)])]
+    rest = plane[others]
+    inside = (turn(p, q, rest) > 0) & (turn(q, r, rest) > 0) & (turn(r, p, rest) > 0)
+    return -1.0 if area <= 0 or inside.any() or sides == 0 else area / sides
+
+
+def _merge_near(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    """Let border vertices nearer than NEAR of the size be one: rows of the first of each group.
+
+    Points that near share a cell of one of eight grids, shifted by half a cell along the axes.
+    """
+    edges, number = find_border(triangles) if len(triangles) else (triangles, triangles)
+    border = np.unique(edges[number == 1]) if len(triangles) else np.empty(0, dtype=np.int64)
+    if not len(border):
+        return triangles
+    cell = 2 * NEAR * np.ptp(vertices[np.unique(triangles)], axis=0).max()
+    place = vertices[border] - vertices[border].min(axis=0)
+    label = np.arange(len(border))
+    for shift in np.ndindex(2, 2, 2):
+        key = np.floor(place / (cell or 1.0) + 0.5 * np.array(shift)).astype(np.int64)
+        _, inverse = np.unique(key, axis=0, return_inverse=True)
+        least = np.full(len(border), len(border))
+        np.minimum.at(least, inverse.ravel(), label)
+        label = least[inverse.ravel()]
+    row = np.arange(len(vertices))
+    row[border] = border[label]
+    merged = row[triangles]
+    return merged[(merged != np.roll(merged, 1, axis=1)).all(axis=1)]
