@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from foldshell.folding.exact import ExactWeights, Solution, allow_rounding, solve_exactly
+from foldshell.folding.exact import ACCEPTED, ExactWeights, Solution, allow_rounding, solve_exactly
 from foldshell.folding.intersections import find_intersections
 from foldshell.folding.placement import measure_rounding
 from foldshell.folding.quality import count_flipped, find_convex
@@ -19,7 +19,6 @@ from foldshell.pattern.miura import size_miura
 from foldshell.pattern.sheet import Sheet, make_miura_sheet
 from foldshell.pattern.unfold import Assembly, find_overlap, follow_path, unfold_panels
 
-ACCEPTED = 1e-9  # constraint residual and closures
 CLOSURE_ROUNDING = 1e4  # steps of the written coordinates that a closure may be off by
 OTHER_ANGLES_DEG = (70.0, 65.0, 75.0)  # starts to try when the given sector angle fails
 REFOLDED = 1e-10  # gap [m] between panels anywhere on the rigid path

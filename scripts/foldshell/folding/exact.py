@@ -32,7 +32,8 @@ from foldshell.folding.problem import (
 from foldshell.folding.terms import Attraction, Target, Term
 from foldshell.pattern.sheet import Sheet
 
-TOLERANCE = 1e-12  # of the constraints, non-dimensional
+TOLERANCE = 1e-12  # of the constraints, non-dimensional, at which no further step is needed
+ACCEPTED = 1e-9  # constraint residual and closures of true origami
 ROUNDING = 64  # steps of the written coordinates that a residual may be off by
 CORNER_MARGIN, FOLD_MARGIN = math.radians(8), math.radians(5)
 
@@ -93,7 +94,7 @@ def solve_exactly(
     projected = project_vertices(constraints, vertices)
     written = round_as_written(projected.vertices, target)
     residual = measure_residual(constraints, written)
-    reason = describe_residual(residual, TOLERANCE + allow_rounding(sheet, target))
+    reason = describe_residual(residual, ACCEPTED + allow_rounding(sheet, target))
     return Solution(written, residual, iterations + projected.iterations, reason)
 
 
@@ -139,7 +140,7 @@ def project_vertices(
             vertices = vertices + equations.solve(matrix, shift, -gradient).reshape(-1, 3)
         except NotPositiveDefinite:
             break
-    return Solution(best, least, iteration, describe_residual(least, TOLERANCE))
+    return Solution(best, least, iteration, describe_residual(least, ACCEPTED))
 
 
 def _constraints(

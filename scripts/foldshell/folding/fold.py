@@ -62,9 +62,12 @@ def fold_sheet(sheet: Sheet, target: Target, mode: str, settings: FoldSettings) 
     start_coverage = measure_start_coverage(sheet, target, settings.attract) if folded else 0.0
     least = settings.limits.plan_coverage * start_coverage
     state, reason = judge_shape(shape, quality, settings.limits.allowed_rms(mode), least, mode)
-    shape = replace(shape, vertices=place_vertices(shape.vertices, target))
+    reach = target.measure_reach(shape.vertices[attracted]) if folded else 0.0
+    if reach:
+        shape = replace(shape, residuals={**shape.residuals, "beyond_border_m": reach})
     seconds = time.perf_counter() - start
-    return FoldResult(shape, attracted, distances, quality, state, reason, seconds)
+    placed = replace(shape, vertices=place_vertices(shape.vertices, target))
+    return FoldResult(placed, attracted, distances, quality, state, reason, seconds)
 
 
 def judge_shape(

@@ -58,6 +58,47 @@ class MeshTarget:
         cells, weights = self._locator.find_closest(points)
         return self._interpolate(cells, weights)
 
+    def measure_distances(self, points: np.ndarray) -> np.ndarray:
+        """Signed distances (N,) [m] of points (N, 3), above positive.
+
+        Beyond the border, where a zig-zag reaches out of the plan, that to the surface continued
+        along its tangent planes: n.(x - p).
+        """
+        along, straight, beyond = self._look_from(points)
+        return np.where(beyond, along, np.copysign(straight, along))
+
+    def measure_reach(self, points: np.ndarray) -> float:
+        """How far [m] points (N, 3) lie beyond the border of the surface, 0 if none does."""
+        along, straight, beyond = self._look_from(points)
+        reach = np.sqrt(np.maximum(straight**2 - along**2, 0.0))
+        return float(reach[beyond].max(initial=0.0))
+
+    def _look_from(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """n.(x - p) and |x - p| (N,) [m], and whether p is on the border (N,)."""
+        cells, weights = self._locator.find_closest(points)
+        closest, normals = self._interpolate(cells, weights)
+        offset = points - closest
+        on_vertex = (weights > 1 - 1e-9) & self._border_vertices[self.triangles[cells]]
+        on_edge = (weights < 1e-9) & self._border_sides[cells]
+        beyond = (on_vertex | on_edge).any(axis=1)
+        along = np.einsum("ij,ij->i", normals, offset)
+        return along, np.linalg.norm(offset, axis=1), beyond
+
+    @cached_property
+    def _border_sides(self) -> np.ndarray:
+        """Whether the side opposite of each corner (F, 3) is on the border."""
+        opposite = self.triangles[:, [[1, 2], [2, 0], [0, 1]]]
+        edges = np.sort(opposite.reshape(-1, 2), axis=1)
+        _, place, number = np.unique(edges, axis=0, return_inverse=True, return_counts=True)
+        return (number[place.ravel()] == 1).reshape(-1, 3)
+
+    @cached_property
+    def _border_vertices(self) -> np.ndarray:
+        """Whether each vertex (V,) is on the border."""
+        flags = np.zeros(len(self.vertices), dtype=bool)
+        flags[self.triangles[:, [[1, 2], [2, 0], [0, 1]]][self._border_sides]] = True
+        return flags
+
     def _interpolate(self, cells: np.ndarray, weights: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
         corners = self.triangles[cells]
         closest = np.einsum("nk,nkc->nc", weights, self.vertices[corners])

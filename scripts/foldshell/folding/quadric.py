@@ -57,6 +57,16 @@ class Quadric:
         x, y = plan.T
         return np.column_stack([plan, self.evaluate_height(x, y)]), self.find_normals(x, y)
 
+    def measure_distances(self, points: np.ndarray) -> np.ndarray:
+        """n.(x - p(x)): signed distances (N,) [m] of points (N, 3), above positive."""
+        closest, normals = self.find_closest(points)
+        return np.einsum("ij,ij->i", normals, points - closest)
+
+    def measure_reach(self, points: np.ndarray) -> float:
+        """0: the surface has no border."""
+        del points
+        return 0.0
+
     def _shorten(
         self, points: np.ndarray, plan: np.ndarray, step: np.ndarray, long: np.ndarray
     ) -> np.ndarray:

@@ -45,6 +45,14 @@ class Target(Protocol):
         """Closest points (N, 3) [m] and upward unit normals (N, 3)."""
         ...
 
+    def measure_distances(self, points: np.ndarray) -> np.ndarray:
+        """Signed distances (N,) [m] of points (N, 3), above positive."""
+        ...
+
+    def measure_reach(self, points: np.ndarray) -> float:
+        """How far [m] points (N, 3) lie beyond the border of the surface."""
+        ...
+
     def evaluate_height(self, x: np.ndarray, y: np.ndarray) -> np.ndarray:
         """z(x, y) [m]."""
         ...
@@ -63,9 +71,8 @@ class Target(Protocol):
 
 
 def measure_distances(points: np.ndarray, target: Target) -> np.ndarray:
-    """n.(x - p(x)): signed distances (N,) [m] of points (N, 3) to the target, above positive."""
-    closest, normals = target.find_closest(points)
-    return np.einsum("ij,ij->i", normals, points - closest)
+    """Signed distances (N,) [m] of points (N, 3) to the target, above positive."""
+    return target.measure_distances(points)
 
 
 def vertex_columns(vertices: np.ndarray) -> np.ndarray:
