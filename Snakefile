@@ -6,7 +6,6 @@
 
 import os
 import sys
-import time
 from pathlib import Path
 
 sys.path.insert(0, str(Path(workflow.current_basedir) / "scripts"))

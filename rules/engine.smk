@@ -2,6 +2,7 @@
 # not at this speed. A run goes on without a name that is gone and says so in one line; a test fails.
 
 import inspect
+import time
 from subprocess import CalledProcessError
 
 import snakemake.benchmark

@@ -31,8 +31,7 @@ def main(
     comparison; where codes differ, a second one on finer meshes stands. `tolerance`
     overrides relative tolerances by quantity; `stability` adds the buckling factors and values
     of second order that the primary code gives. `shear_factor` 5/6 is the physical plate;
-    `solver` scipy takes the plain path. A mechanism has nothing to compare: `pass` is null, with
-    the reason.
+    `solver` scipy takes the plain path. A mechanism has nothing to compare: `pass` is null.
     """
     model, reason = read_model(model_path), read_reason(primary_path)
     meshes = [int(m) for m in subdivisions]

@@ -4,10 +4,10 @@ import csv
 from collections.abc import Sequence
 from pathlib import Path
 
-from crosscheck.comparison import KINDS, build_independent
+from crosscheck.comparison import build_independent
 from crosscheck.errors import CrosscheckError, report_errors
 from crosscheck.model import read_model
-from crosscheck.opensees import list_opensees_values, open_opensees
+from crosscheck.opensees import list_opensees_values, list_rows, open_opensees
 from crosscheck.primary import read_primary, read_reason
 from crosscheck.reading import write_whole
 
@@ -38,14 +38,7 @@ def main(
         primary = read_primary(primary_path, model.compared_combinations)
         runs = [list_opensees_values(model, n) for n in subdivisions]
         opensees = build_independent(subdivisions, runs, ORDER)
-        for combination, values in opensees.values.items():
-            for name, meshes in values.items():
-                limit, aim = (code.limit(combination, name)[0] for code in (primary, opensees))
-                row = {"design": model.design, "combination": combination, "quantity": name}
-                row |= {"unit": KINDS[name][1], "primary": limit, "opensees": aim}
-                row["relative_difference"] = aim / limit - 1
-                row |= {f"opensees_n{n}": v for n, v in zip(subdivisions, meshes, strict=True)}
-                rows.append(row)
+        rows += list_rows(model.design, primary, opensees, subdivisions)
     with write_whole(csv_path) as temporary, temporary.open("w", newline="") as stream:
         writer = csv.DictWriter(stream, list(rows[0]))
         writer.writeheader()

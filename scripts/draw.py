@@ -38,8 +38,7 @@ def main(
     known = Material(**material) if "criterion" in material else None
     write_design_vtu(vtu_path, state, view.elasticity, known, combinations)
     write_lines_vtu(lines_path, view)
-    figures = settings["figures"]
-    size = (figures["width_px"], figures["height_px"])
+    size = tuple(settings["figures"][key] for key in ("width_px", "height_px"))
     for name, picture in draw_design(view, size, tuple(pictures)).items():
         save_png(pictures[name], picture)
 

@@ -1,17 +1,13 @@
 """Rule manifest: what a design is made of, every file with its hash, and what decided it."""
 
-import platform
-import subprocess
 from collections.abc import Sequence
-from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from foldshell.engine.provenance import find_versions
 from foldshell.files.errors import user_errors
 from foldshell.files.job_record import hash_result, read_records
 from foldshell.files.manifest import make_manifest, write_manifest
 from foldshell.files.whole import hash_file
-
-PACKAGES = ("foldshell", "numpy", "scipy", "cvxopt", "snakemake", "openpyxl", "XlsxWriter")
 
 
 def main(
@@ -39,27 +35,6 @@ def main(
             {_relative(Path(member), home): hash_file(member) for member in members},
         ),
     )
-
-
-def find_versions(code: str | Path) -> dict[str, str]:
-    """Return versions of Python, the program and its packages, and the commit of the workflow."""
-    found = {"python": platform.python_version()}
-    for name in PACKAGES:
-        try:
-            found[name] = version(name)
-        except PackageNotFoundError:
-            continue
-    return found | {"commit": find_commit(code)}
-
-
-def find_commit(code: str | Path) -> str:
-    """Return the commit of a checkout, with `-dirty` where files differ from it; else unknown."""
-    words = ["git", "-C", str(code), "describe", "--always", "--abbrev=40", "--dirty", "--match="]
-    try:
-        done = subprocess.run(words, capture_output=True, text=True, timeout=20)
-    except (OSError, subprocess.TimeoutExpired):
-        return "unknown"
-    return done.stdout.strip() or "unknown"
 
 
 def _relative(path: Path, home: Path) -> str:

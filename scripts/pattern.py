@@ -30,8 +30,7 @@ def main(
 ) -> None:
     """Write crease_pattern.fold: flat pattern, rest state and `frames` folded states [m].
 
-    With `dxf_path` and `svg_path` the flat pattern as drawings [mm] too; `drawings` are the plain
-    settings of that group.
+    `dxf_path`, `svg_path`: the flat pattern as drawings [mm] too, by the settings `drawings`.
     """
     style = {"preset": "fold", "scale": 1.0, **(drawings or {})}
     try:

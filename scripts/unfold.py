@@ -11,8 +11,7 @@ from foldshell.files.errors import InputError
 from foldshell.files.whole import read_arrays
 from foldshell.pattern.drawings import draw_pattern, write_dxf, write_svg
 from foldshell.pattern.fold_format import read_fold, write_fold
-from foldshell.pattern.grid import Grid
-from foldshell.pattern.unfold import describe_true_sheet
+from foldshell.pattern.unfold import describe_true_sheet, name_flat_state
 
 
 def main(
@@ -29,18 +28,15 @@ def main(
 ) -> None:
     """Read crease_pattern.fold and folded.npz; write developable_pattern.fold, .dxf and .svg.
 
-    The flat state is the one that folded.npz records: the unfolded panels in exact and rigid mode;
-    in the other modes the given pattern, and the files say so, with the stretch that lies between
-    it and the folded shape. That shape is a frame, and before it, where the panels can follow,
-    `frames` states of its rigid folding path. `drawings` are the settings of that group.
+    The flat state is that of folded.npz: the unfolded panels in exact and rigid mode, else the
+    given pattern, as the files say. The folded shape is a frame after `frames` of its rigid path,
+    where panels can follow one. `drawings` are the settings of that group.
     """
     style = {"preset": "fold", "scale": 1.0, **(drawings or {})}
     sheet, folded = read_fold(pattern_path), read_arrays(folded_path)
-    if folded["vertices"].shape != sheet.flat.shape:
-        raise InputError(
-            f"{folded_path}: vertices: {len(folded['vertices'])}: must be {len(sheet.flat)} as in "
-            f"{pattern_path}"
-        )
+    count, due = len(folded["vertices"]), len(sheet.flat)
+    if count != due:
+        raise InputError(f"{folded_path}: vertices: {count}: must be {due} as in {pattern_path}")
     parts = np.linspace(0.0, 1.0, frames + 1)[:-1]
     true = describe_true_sheet(sheet, folded["flat"], folded["vertices"], parts)
     title = f"{design}, {name_flat_state(sheet.grid, folded, fold_mode)}"
@@ -48,18 +44,6 @@ def main(
     write_dxf(dxf_path, drawing, style["preset"])
     write_svg(svg_path, drawing, style["preset"])
     write_fold(fold_path, true, title)
-
-
-def name_flat_state(grid: Grid, folded: Mapping[str, np.ndarray], fold_mode: str) -> str:
-    """Name what the flat state of folded.npz is: unfolded, or the given pattern and its stretch."""
-    if fold_mode in ("exact", "rigid"):
-        return "unfolded from the folded shape"
-    flat, shape = (
-        np.linalg.norm(np.diff(folded[name][grid.edges], axis=1)[:, 0], axis=1)
-        for name in ("flat", "vertices")
-    )
-    stretch = np.abs(shape / flat - 1).max()
-    return f"the given pattern (mode {fold_mode}: its sides stretch by up to {100 * stretch:.2g} %)"
 
 
 if "snakemake" in globals():

@@ -77,7 +77,10 @@ def _choose_solver(solver: str) -> tuple[Callable, Callable]:
 def measure_response(
     analysis: Analysis, response: Response, case: int, forces: np.ndarray
 ) -> dict[str, float]:
-    """Displacement, work of `forces` (F, R, 3) and utilization for one column of a response."""
+    """Displacement, work of `forces` (F, R, 3) and utilization for one column of a response.
+
+    Forces in kN, displacement in m, work in kNm.
+    """
     model, grid = analysis.model, analysis.system.grid
     moved = response.displacement[..., case]
     use = compute_utilization(

@@ -27,7 +27,10 @@ class Discretisation:
 
 
 def plan_facets(vertices: np.ndarray, facets: np.ndarray) -> Plan:
-    """The order in which the unknowns of vertices and edges are eliminated, for every mesh."""
+    """The order in which the unknowns of vertices and edges are eliminated, for every mesh.
+
+    vertices (V, 3) m, facets (F, 3) as rows of them.
+    """
     sides = np.sort(np.stack([facets, np.roll(facets, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
     _, edge = np.unique(sides, axis=0, return_inverse=True)  # numbered as `build_mesh` does
     edge = edge.reshape(-1, 3)
@@ -46,6 +49,8 @@ def discretise(
     """Mesh the facets; `hold(mesh)` tells which skeleton translations (S, 3) are fixed.
 
     `plan` is that of `plan_facets`, made here where it is not given.
+
+    Places in m.
     """
     mesh = build_mesh(vertices, facets, subdivisions, grading)
     axes = build_facet_axes(vertices, facets)
@@ -85,7 +90,7 @@ def number_equations(mesh: Mesh, flat: np.ndarray, held: np.ndarray) -> tuple[np
 
 
 def hold_edges(supported: np.ndarray):
-    """Pins (no translation) at every mesh node on the given vertex pairs."""
+    """Pins (no translation) at every mesh node on the given vertex pairs (S, 2), as numbers."""
 
     def hold(mesh: Mesh) -> np.ndarray:
         """Held translations of the nodes on the outlines of facets: (N, 3)."""

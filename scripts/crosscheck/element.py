@@ -23,7 +23,10 @@ def _lagrange(x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def evaluate_shape(r: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Biquadratic shape functions (g, 9), r fastest, and their derivatives (g, 9, 2)."""
+    """Biquadratic shape functions (g, 9), r fastest, and their derivatives (g, 9, 2).
+
+    r and s (g,) are coordinates in the square from -1 to 1, without unit.
+    """
     value_r, slope_r = _lagrange(r)
     value_s, slope_s = _lagrange(s)
     shape = (value_s[:, :, None] * value_r[:, None, :]).reshape(len(r), 9)
@@ -33,7 +36,7 @@ def evaluate_shape(r: np.ndarray, s: np.ndarray) -> tuple[np.ndarray, np.ndarray
 
 
 def build_grid(points_r: np.ndarray, points_s: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """All pairs of two point rows, r fastest."""
+    """All pairs of two point rows (p,) and (q,), r fastest: r and s (p q,) in the unit square."""
     s, r = np.meshgrid(points_s, points_r, indexing="ij")
     return r.ravel(), s.ravel()
 
@@ -111,7 +114,10 @@ def _tie_shear(xy: np.ndarray, direction: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def compute_shear_operator(xy: np.ndarray, quadrature: Quadrature) -> np.ndarray:
-    """Transverse shear strain (xz, yz) at the Gauss points: (..., 9, 2, 9, 3) on (w, bx, by)."""
+    """Transverse shear strain (xz, yz) at the Gauss points: (..., 9, 2, 9, 3) on (w, bx, by).
+
+    xy (..., 9, 2) m; strains per m of w and per rad of b, so 1/m and 1.
+    """
     natural = []
     for direction in (0, 1):
         operator, weights = _tie_shear(xy, direction)

@@ -46,12 +46,15 @@ class Substructure:
 
 
 def spread_dofs(nodes: np.ndarray, dofs: int) -> np.ndarray:
-    """Dof numbers of nodes, node by node."""
+    """Dof numbers (..., k dofs) of nodes (..., k), node by node."""
     return (nodes[..., None] * dofs + np.arange(dofs)).reshape(*nodes.shape[:-1], -1)
 
 
 def condense(matrix: np.ndarray, kept: int) -> tuple[np.ndarray, Condensation]:
-    """S = Kbb - Kbi inverse(Kii) Kib for symmetric matrices (..., n, n); b is the first `kept`."""
+    """S = Kbb - Kbi inverse(Kii) Kib for symmetric matrices (..., n, n); b is the first `kept`.
+
+    Stiffness in kN/m, kN and kNm, facet by facet.
+    """
     coupled = matrix[..., kept:, :kept]
     inverse = np.linalg.inv(matrix[..., kept:, kept:])
     coupling = inverse @ coupled
@@ -107,7 +110,7 @@ def allocate(part: Substructure, count: int) -> Substructure:
 
 
 def store(whole: Substructure, facets: np.ndarray, part: Substructure) -> None:
-    """Put the condensation of some facets in its place in that of all."""
+    """Put the condensation of some facets (S,), as numbers, in its place in that of all."""
     for into, step in ((whole.blocks, part.blocks), (whole.spokes, part.spokes)):
         into.coupling[facets] = step.coupling
         into.inverse[facets] = step.inverse
@@ -117,6 +120,8 @@ def reduce_load(part: Substructure, load: np.ndarray) -> np.ndarray:
     """Move loads (F, R d, c) outward: Fb - Kbi inverse(Kii) Fi, in both steps.
 
     Entries of the outline are then the condensed load; the inner ones serve `recover_facets`.
+
+    Loads in kN and kNm.
     """
     border, kept = part.border, part.kept
     total = load.copy()
@@ -128,7 +133,10 @@ def reduce_load(part: Substructure, load: np.ndarray) -> np.ndarray:
 
 
 def recover_facets(part: Substructure, reduced: np.ndarray, outline: np.ndarray) -> np.ndarray:
-    """Values at all facet nodes (F, R d, c) from outline values and loads of `reduce_load`."""
+    """Values at all facet nodes (F, R d, c) from outline values and loads of `reduce_load`.
+
+    Values are m or rad, loads kN or kNm.
+    """
     border, kept = part.border, part.kept
     full = np.empty_like(reduced)
     full[:, :border] = outline

@@ -19,7 +19,10 @@ class Skeleton:
 
 
 def build_facet_axes(vertices: np.ndarray, facets: np.ndarray) -> np.ndarray:
-    """Rows x (along the first side), y, normal for each facet: (F, 3, 3)."""
+    """Rows x (along the first side), y, normal for each facet: (F, 3, 3).
+
+    vertices (V, 3) m; the axes are unit vectors.
+    """
     a, b, c = (vertices[facets[:, k]] for k in range(3))
     normal = np.cross(b - a, c - a)
     normal /= np.linalg.norm(normal, axis=1, keepdims=True)
@@ -33,6 +36,8 @@ def build_skeleton(mesh: Mesh, axes: np.ndarray) -> Skeleton:
     With bx = omega . y and by = -omega . x the rotation vector omega carries over a fold
     without any drilling stiffness; where all facets are coplanar the third rotation has none
     and is left out.
+
+    `axes` (F, 3, 3) are the unit vectors of `build_facet_axes`.
     """
     outline = mesh.facet_nodes[:, : mesh.reference.outline]
     first = np.full(mesh.skeleton, len(axes))

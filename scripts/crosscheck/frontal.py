@@ -50,7 +50,7 @@ class Factor:
     fronts: tuple[Front, ...]
 
     def solve(self, load: np.ndarray) -> np.ndarray:
-        """x = inverse(K) b for b (size,) or (size, c)."""
+        """x = inverse(K) b for b (size,) or (size, c). b in kN or kNm, x in m or rad."""
         # cases as rows: products of a front with few long rows run at the speed of memory
         x = np.ascontiguousarray(load[self.order].reshape(len(self.order), -1).T)
         for front in self.fronts:
@@ -100,7 +100,7 @@ class Spans:
     count: np.ndarray
 
     def list_equations(self, groups: list[int]) -> np.ndarray:
-        """The equations of some groups, one group after the other."""
+        """The equations (n,) of some groups, one group after the other, as numbers."""
         return _list_ranges(self.start[groups], self.count[groups])
 
     def count_equations(self, groups: list[int]) -> int:
@@ -108,7 +108,7 @@ class Spans:
         return int(self.count[groups].sum())
 
     def sort_equations(self, branch: Branch) -> np.ndarray:
-        """`sort` of a branch for the equations of its `outer` groups."""
+        """`sort` of a branch for the equations (n,) of its `outer` groups, as numbers."""
         count = self.count[branch.outer]
         return _list_ranges((np.cumsum(count) - count)[branch.sort], count[branch.sort])
 
@@ -123,6 +123,8 @@ def plan_elimination(groups: np.ndarray, links: np.ndarray, centres: np.ndarray)
     """Plan for facets with `groups` (F, g); each stands in a facet once.
 
     Those in `links` (F, l), -1 for none, and `centres` (F, 3) guide the bisection.
+
+    `groups` and `links` are numbers, `centres` are m.
     """
     tree = bisect(links, centres)
     uses = np.bincount(groups.ravel()).tolist()
@@ -170,6 +172,8 @@ def factor_sum(
 
     `matrices` come in the order of `plan.facets`; `spans` says which equations a group stands for,
     rising with the groups. Raises NotPositiveDefinite.
+
+    Matrices in kN/m, kN and kNm.
     """
     branches = list(_list_branches(plan.root))
     order = np.concatenate([spans.list_equations(branch.inner) for branch in branches])

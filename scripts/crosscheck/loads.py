@@ -36,7 +36,10 @@ def compute_surface_loads(model: Model, normal: np.ndarray) -> np.ndarray:
 def combine_cases(
     surface: np.ndarray, combinations: Mapping[str, Mapping[str, float]]
 ) -> np.ndarray:
-    """Sum of factor times load for each combination: (F, 3, k)."""
+    """Sum of factor times load for each combination: (F, 3, k).
+
+    Loads of the cases are (F, 3, 5) at the vertices; kN/m2 in and out.
+    """
     factor = [[factors.get(case, 0.0) for factors in combinations.values()] for case in CASES]
     return surface @ np.array(factor)
 

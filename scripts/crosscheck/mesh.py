@@ -100,7 +100,10 @@ def build_reference_facet(m: int, grading: float = GRADING) -> ReferenceFacet:
 
 
 def build_mesh(vertices: np.ndarray, facets: np.ndarray, m: int, grading: float = GRADING) -> Mesh:
-    """Mesh flat triangles `facets` (F, 3) over `vertices` (V, 3); nodes on edges are shared."""
+    """Mesh flat triangles `facets` (F, 3) over `vertices` (V, 3); nodes on edges are shared.
+
+    Vertices in m.
+    """
     reference = build_reference_facet(m, grading)
     sides = np.stack([facets, np.roll(facets, -1, axis=1)], axis=2)  # (F, 3, 2)
     forward = sides[..., 0] < sides[..., 1]

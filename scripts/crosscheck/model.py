@@ -61,7 +61,7 @@ class Model:
 
     @property
     def bare(self) -> np.ndarray:
-        """Whether each facet carries its own weight only: (F,)."""
+        """True for facets that carry their own weight only, (F,) bool."""
         return np.isin(self.facet_panel, self.bare_panels)
 
     @property

@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from crosscheck.comparison import KINDS, Code
 from crosscheck.errors import CrosscheckError
 from crosscheck.loads import combine_cases, compute_surface_loads
 from crosscheck.model import Model
@@ -32,7 +33,7 @@ class ShellGrid:
 
     @property
     def free(self) -> np.ndarray:
-        """Nodes that may move."""
+        """Numbers (n,) of the nodes that may move."""
         return np.setdiff1d(np.arange(len(self.nodes)), self.supported)
 
 
@@ -160,3 +161,20 @@ def list_opensees_values(model: Model, subdivisions: int) -> dict[str, dict[str,
         }
     ops.wipe()
     return result
+
+
+def list_rows(
+    design: str, primary: Code, opensees: Code, subdivisions: Sequence[int]
+) -> list[dict[str, Any]]:
+    """One row per combination and quantity: both limits, their difference, OpenSees' meshes."""
+    rows = []
+    for combination, values in opensees.values.items():
+        for name, meshes in values.items():
+            limit, aim = (code.limit(combination, name)[0] for code in (primary, opensees))
+            row = {"design": design, "combination": combination, "quantity": name}
+            row |= {"unit": KINDS[name][1], "primary": limit, "opensees": aim}
+            row["relative_difference"] = aim / limit - 1
+            rows.append(
+                row | {f"opensees_n{n}": v for n, v in zip(subdivisions, meshes, strict=True)}
+            )
+    return rows

@@ -149,6 +149,8 @@ def find_plain_state(system: PlainSystem, forces: np.ndarray, first: Response) -
     """(K + G(u)) x = T' f for one column of forces (F, R, 3, 1), G of the last x until it stays.
 
     Raises NotSettled.
+
+    Forces in kN or kNm at the facets' nodes, x in m or rad.
     """
     load, now = turn_forces(system.grid, forces), first.local
     right = system.connection.T @ _flatten(load)

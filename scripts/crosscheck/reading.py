@@ -119,7 +119,7 @@ class Place:
         return [self.at(k) for k in range(len(self.value))]
 
     def numbers(self, width: int | None, above: float = -math.inf) -> np.ndarray:
-        """A list of numbers, or of rows of `width` numbers."""
+        """A list (n,) of numbers, or of rows (n, width), in the unit that the file states."""
         rows = [
             place.number(above=above) if width is None else place.row(width)
             for place in self.entries()
@@ -133,7 +133,7 @@ class Place:
         return [self.at(k).number() for k in range(width)]
 
     def indices(self, width: int | None, count: int) -> np.ndarray:
-        """Whole numbers from 0 to count - 1, or rows of them without a repeat."""
+        """Whole numbers (n,) from 0 to count - 1, or rows (n, width) of them without a repeat."""
         values = self.numbers(width)
         bad = (values != np.floor(values)) | (values < 0) | (values >= count)
         bad = bad if width is None else bad.any(axis=1)

@@ -70,6 +70,8 @@ def apply_own_geometric(system: System, local: np.ndarray) -> np.ndarray:
     """Kg(N(u)) u for each column of (F, R, 5, c), as `apply_geometric` gives it.
 
     From stress to force at the Gauss points, since the matrices would serve once only.
+
+    Displacements in m and rad, forces in kN and kNm.
     """
     quadrature = system.grid.quadrature
     change = _find_gradients(system.grid, local)
@@ -98,7 +100,10 @@ def _sum_elements(grid: Discretisation, force: np.ndarray) -> np.ndarray:
 def solve_second_order(
     system: System, forces: np.ndarray, first: Response, tolerance: float = TOLERANCE
 ) -> SecondOrder:
-    """Find the second-order state by `search_second_order` alone. Raises NotSettled."""
+    """Find the second-order state by `search_second_order` alone. Raises NotSettled.
+
+    forces (F, R, 3, c) kN at facet nodes, one column per combination.
+    """
     return run_alone(system, search_second_order(system, forces, first, tolerance))
 
 
@@ -109,6 +114,8 @@ def search_second_order(
 
     `forces` (F, R, 3, c) act on facet nodes; `first` is the first-order answer, where it starts.
     Returns a SecondOrder, raises NotSettled.
+
+    Forces in kN at facet nodes, one column per combination.
     """
     load, now = turn_forces(system.grid, forces), first.local
     history: list[tuple[np.ndarray, np.ndarray]] = []

@@ -57,13 +57,19 @@ def compute_utilization(
 
 
 def rate_stress(stress: np.ndarray, material: Material) -> np.ndarray:
-    """Von Mises stress over strength, for plane stress (xx, yy, xy)."""
+    """Von Mises stress over strength, for plane stress (xx, yy, xy).
+
+    stress (..., 3) kPa; returns (...) without unit.
+    """
     x, y, xy = np.moveaxis(stress, -1, 0)
     return np.sqrt(x * x - x * y + y * y + 3 * xy * xy) / material.strength
 
 
 def rate_principal_stress(stress: np.ndarray, material: Material) -> np.ndarray:
-    """Rankine: the larger of tension and compression, each over its own strength."""
+    """Rankine: the larger of tension and compression, each over its own strength.
+
+    stress (..., 3) kPa as xx, yy, xy; returns (...) without unit.
+    """
     x, y, xy = np.moveaxis(stress, -1, 0)
     middle, radius = (x + y) / 2, np.hypot((x - y) / 2, xy)
     tension = (middle + radius) / material.strength_tension
@@ -74,6 +80,8 @@ def rate_pressure(stress: np.ndarray, material: Material) -> np.ndarray:
     """Drucker-Prager cone through both uniaxial strengths: (m - 1) p + (m + 1) q over 2 f.
 
     p is the sum of the normal stresses, q the von Mises stress and m = f / f_t.
+
+    stress (..., 3) kPa as xx, yy, xy; returns (...) without unit.
     """
     x, y, xy = np.moveaxis(stress, -1, 0)
     ratio = material.strength / material.strength_tension
@@ -90,7 +98,7 @@ RATES = {
 
 
 def compute_percentile(value: np.ndarray, area: np.ndarray, share: float = 0.99) -> float:
-    """The value that is not exceeded on `share` of the area."""
+    """The value (any unit) that is not exceeded on `share` of the area: both (F, g), area in m2."""
     order = np.argsort(value, axis=None)
     covered = np.cumsum(area.ravel()[order])
     place = np.searchsorted(covered, share * covered[-1])
@@ -98,7 +106,10 @@ def compute_percentile(value: np.ndarray, area: np.ndarray, share: float = 0.99)
 
 
 def compute_panel_means(value: np.ndarray, area: np.ndarray, facet_panel: np.ndarray) -> np.ndarray:
-    """Area mean over each panel of a value at the Gauss points (F, ...): (P,)."""
+    """Area mean over each panel of a value at the Gauss points (F, ...): (P,).
+
+    The value keeps its unit, area (F, ...) is in m2, facet_panel (F,) are numbers.
+    """
     weighted = (value * area).reshape(len(facet_panel), -1).sum(axis=1)
     total = area.reshape(len(facet_panel), -1).sum(axis=1)
     return np.bincount(facet_panel, weighted) / np.bincount(facet_panel, total)

@@ -90,6 +90,8 @@ def build_system(
     """Condense all facets and factor the skeleton; `geometric` is added to the two fields.
 
     Raises NotPositiveDefinite for a mechanism or a buckled state.
+
+    The pair is (F, n, n) of membrane and (F, n, n) of plate, kN/m and kNm.
     """
     work = _Condenser(grid, section, geometric)
     place = grid.equations.reshape(len(grid.equations), -1)
@@ -135,7 +137,10 @@ class _Condenser:
 
 
 def join_fields(membrane: np.ndarray, plate: np.ndarray) -> np.ndarray:
-    """Facet matrices (F, n, 5, n, 5) on (u, v, w, bx, by) from the two fields."""
+    """Facet matrices (F, n, 5, n, 5) on (u, v, w, bx, by) from the two fields.
+
+    membrane (F, 2n, 2n) in kN/m, plate (F, 3n, 3n) in kN/m, kN and kNm.
+    """
     count, nodes = len(membrane), membrane.shape[1] // 2
     total = np.zeros((count, nodes, 5, nodes, 5))
     total[:, :, :2, :, :2] = membrane.reshape(count, nodes, 2, nodes, 2)
@@ -144,7 +149,10 @@ def join_fields(membrane: np.ndarray, plate: np.ndarray) -> np.ndarray:
 
 
 def turn_stiffness(local: np.ndarray, turn: np.ndarray) -> np.ndarray:
-    """T^T K T, node block by node block: (F, n, 5, n, 5) to (F, 6n, 6n)."""
+    """T^T K T, node block by node block: (F, n, 5, n, 5) to (F, 6n, 6n).
+
+    Units stay: kN/m, kN and kNm.
+    """
     count, nodes = turn.shape[:2]
     half = np.moveaxis(local.reshape(count, 5 * nodes, nodes, 5), 2, 1) @ turn
     half = np.moveaxis(half.reshape(count, nodes, nodes, 5, 6), 2, 1)
@@ -153,7 +161,10 @@ def turn_stiffness(local: np.ndarray, turn: np.ndarray) -> np.ndarray:
 
 
 def assemble_skeleton(matrices: np.ndarray, equations: np.ndarray, size: int) -> csc_matrix:
-    """The same sum as the fronts', as one sparse matrix (for checks with SuperLU)."""
+    """The same sum as the fronts', as one sparse matrix (for checks with SuperLU).
+
+    matrices (F, k, k) kN/m, equations (F, k) as numbers, -1 for none.
+    """
     place = equations.reshape(len(equations), -1)
     rows = np.broadcast_to(place[:, :, None], matrices.shape)
     columns = np.broadcast_to(place[:, None, :], matrices.shape)
@@ -167,13 +178,19 @@ def solve_loads(system: System, forces: np.ndarray) -> Response:
 
 
 def turn_forces(grid: Discretisation, forces: np.ndarray) -> np.ndarray:
-    """Forces (F, R, 3, c) in global axes as local ones on (u, v, w, bx, by): (F, R, 5, c)."""
+    """Forces (F, R, 3, c) in global axes as local ones on (u, v, w, bx, by): (F, R, 5, c).
+
+    kN and kNm.
+    """
     local = np.einsum("fij,frjc->fric", grid.axes, forces, optimize=True)
     return np.concatenate([local, np.zeros_like(local[:, :, :2])], axis=2)
 
 
 def solve_local(system: System, local: np.ndarray) -> Response:
-    """Displacements under local forces (F, R, 5, c) on (u, v, w, bx, by)."""
+    """Displacements under local forces (F, R, 5, c) on (u, v, w, bx, by).
+
+    Forces in kN and kNm, displacements in m and rad.
+    """
     solution = solve_facets(system, local)
     return complete_response(system, solution)
 
@@ -195,7 +212,10 @@ def complete_response(system: System, solution: Solution) -> Response:
 
 
 def solve_facets(system: System, local: np.ndarray) -> Solution:
-    """Displacements under local forces (F, R, 5, c), without what follows from them."""
+    """Displacements under local forces (F, R, 5, c), without what follows from them.
+
+    Forces in kN and kNm, displacements in m and rad.
+    """
     grid, outline = system.grid, system.grid.mesh.reference.outline
     count, places, _, cases = local.shape
     membrane = reduce_load(system.membrane, local[:, :, :2].reshape(count, -1, cases))

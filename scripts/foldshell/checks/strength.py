@@ -8,20 +8,29 @@ from foldshell.settings.material import Material
 
 
 def principal_stresses(stress: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the larger and smaller principal value of plane components (xx, yy, xy), (..., 3)."""
+    """Return the larger and smaller principal value of plane components (xx, yy, xy), (..., 3).
+
+    Any unit, the same in and out; both (...).
+    """
     centre = (stress[..., 0] + stress[..., 1]) / 2
     radius = np.hypot((stress[..., 0] - stress[..., 1]) / 2, stress[..., 2])
     return centre + radius, centre - radius
 
 
 def utilization_von_mises(stress: np.ndarray, material: Material) -> np.ndarray:
-    """sqrt(sx^2 - sx sy + sy^2 + 3 t^2) / f, as in the paper's loop; (..., 3) to (...)."""
+    """sqrt(sx^2 - sx sy + sy^2 + 3 t^2) / f, as in the paper's loop; (..., 3) to (...).
+
+    stress (..., 3) kPa as xx, yy, xy; returns (...) without unit.
+    """
     x, y, xy = np.moveaxis(stress, -1, 0)
     return np.sqrt(x**2 - x * y + y**2 + 3 * xy**2) / material.strength
 
 
 def utilization_rankine(stress: np.ndarray, material: Material) -> np.ndarray:
-    """max(s1 / f_t, -s2 / f): largest principal tension or compression, each by its strength."""
+    """max(s1 / f_t, -s2 / f): largest principal tension or compression, each by its strength.
+
+    stress (..., 3) kPa as xx, yy, xy; returns (...) without unit.
+    """
     high, low = principal_stresses(stress)
     return np.maximum(high / material.strength_tension, -low / material.strength).clip(min=0.0)
 
@@ -30,6 +39,8 @@ def utilization_drucker_prager(stress: np.ndarray, material: Material) -> np.nda
     """(alpha I1 + sqrt(J2)) / k through both uniaxial strengths (Drucker & Prager 1952).
 
     alpha = (f - f_t) / (sqrt(3) (f + f_t)), k = 2 f f_t / (sqrt(3) (f + f_t)).
+
+    stress (..., 3) kPa as xx, yy, xy; returns (...) without unit.
     """
     x, y, xy = np.moveaxis(stress, -1, 0)
     root_j2 = np.sqrt((x**2 - x * y + y**2) / 3 + xy**2)

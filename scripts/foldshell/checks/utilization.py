@@ -74,7 +74,10 @@ def utilization_of_combinations(
 
 
 def panel_utilization(model: ShellModel, cell: np.ndarray, measure: str) -> np.ndarray:
-    """Return (P,): `panel_mean`, the area mean over the cells of a panel, or `element_max`."""
+    """Return (P,): `panel_mean`, the area mean over the cells of a panel, or `element_max`.
+
+    cell (E, cells^2) without unit, as are the results.
+    """
     panel = model.mesh.panel
     if measure == "element_max":
         largest = np.zeros(panel.max() + 1)

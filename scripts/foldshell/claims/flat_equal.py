@@ -24,6 +24,8 @@ def analyse_flat(
 
     `displacement_first_order_m` is there even where the sheet buckles; the mesh error of the
     displacement is that against twice the subdivisions.
+
+    `sheet` holds the arrays of folded.npz: vertices (V, 3) m, facets (F, 3), zigzag, strip (V,).
     """
     mesh = mesh_folded_sheet(dict(sheet), layout.support, subdivisions)
     area = float(facet_areas(sheet["vertices"], sheet["facets"]).sum())

@@ -142,6 +142,6 @@ def facet_areas(vertices: np.ndarray, facets: np.ndarray) -> np.ndarray:
 
 
 def weighted_variation(values: np.ndarray, weight: np.ndarray) -> float:
-    """Return the standard deviation over the mean, both weighted (-)."""
+    """Return the standard deviation over the mean (-), both weighted: values and weight (N,)."""
     mean = np.average(values, weights=weight)
     return float(np.sqrt(np.average((values - mean) ** 2, weights=weight)) / mean)

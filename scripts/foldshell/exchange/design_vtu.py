@@ -30,7 +30,12 @@ from foldshell.shell.mesh import edge_polyline_nodes
 
 
 def cell_fields(state: DesignState) -> dict[str, np.ndarray]:
-    """Return the cell fields (C,) or (C, 3) that the state allows, by name."""
+    """Return the cell fields (C,) or (C, 3) that the state allows, by name.
+
+    Units stand in the file's legend.
+
+    Each has the unit that the file's legend states.
+    """
     fields: dict[str, np.ndarray] = {
         "panel": state.cell_panel.astype(np.int32),
         "thickness": cell_thickness(state),
@@ -50,7 +55,10 @@ def cell_fields(state: DesignState) -> dict[str, np.ndarray]:
 
 
 def force_fields(state: DesignState, found: CombinationFields) -> dict[str, np.ndarray]:
-    """Return membrane forces and principal forces of the combination that governs most."""
+    """Return membrane forces and principal forces of the combination that governs most.
+
+    Each is (C,) or (C, 3) over the cells, forces in kN/m, directions without unit.
+    """
     name = choose_strength(state)
     number = state.combinations.index(name)
     force, axes = found.force[number], found.axes
@@ -64,7 +72,10 @@ def force_fields(state: DesignState, found: CombinationFields) -> dict[str, np.n
 
 
 def combination_cell_fields(state: DesignState, found: CombinationFields) -> dict[str, np.ndarray]:
-    """Return n, m, v, principal forces and utilization of each combination, and envelopes."""
+    """Return n, m, v, principal forces and utilization of each combination, and envelopes.
+
+    Each is (C,) to (C, 3) over the cells: n, v in kN/m, m in kNm/m, utilization without unit.
+    """
     fields = {}
     for k, name in enumerate(state.combinations):
         value, direction = principal_forces(found.force[k], found.axes)
@@ -84,7 +95,10 @@ def combination_cell_fields(state: DesignState, found: CombinationFields) -> dic
 
 
 def point_fields(state: DesignState) -> dict[str, np.ndarray]:
-    """Return the point fields (N,) or (N, 3) by name."""
+    """Return the point fields (N,) or (N, 3) by name. Units stand in the file's legend.
+
+    Each has the unit that the file's legend states.
+    """
     supported = np.zeros(len(state.cells.nodes), dtype=np.int32)
     supported[edge_polyline_nodes(state.cells, state.shell["support_pairs"])] = 1
     fields = {"supported": supported}

@@ -50,7 +50,10 @@ _ENVELOPES = {
 def describe_fields(
     state: DesignState, names: Sequence[str], combinations: Mapping[str, Mapping[str, float]]
 ) -> dict[str, np.ndarray | list[str]]:
-    """Return the FieldData of design.vtu: title, verdict, units and legend of its fields."""
+    """Return the FieldData of design.vtu: title, verdict, units and legend of its fields.
+
+    Arrays are (k,), of text or numbers; units are among what they say.
+    """
     report, factors = state.report, known_factors(state)
     found = {name: _describe(name, state) for name in names}
     verdict = [str(report[key]) for key in ("verdict", "reason") if report.get(key)]

@@ -27,12 +27,18 @@ class Camera:
         return np.stack([right, np.cross(right, forward), forward])
 
     def project(self, points: np.ndarray) -> np.ndarray:
-        """Return (N, 2): right and up in halves of the picture's height, of points (N, 3)."""
+        """Return (N, 2): right and up in halves of the picture's height, of points (N, 3).
+
+        Points in m.
+        """
         local = (points - self.eye) @ self.axes().T
         return local[:, :2] / local[:, 2:] / math.tan(self.view_angle / 2)
 
     def towards(self, points: np.ndarray, distance: float) -> np.ndarray:
-        """Move points (N, 3) towards the eye; they stay where they are in the picture."""
+        """Move points (N, 3) towards the eye; they stay where they are in the picture.
+
+        Points in m.
+        """
         ray = self.eye - points
         return points + distance * ray / np.linalg.norm(ray, axis=1, keepdims=True)
 
@@ -68,7 +74,10 @@ def fit_camera(
 
 
 def look_at(points: np.ndarray, place: np.ndarray) -> tuple[float, float, float]:
-    """Return the standard direction, turned to the corner in plan that is nearest a place (3,)."""
+    """Return the standard direction, turned to the corner in plan that is nearest a place (3,).
+
+    Place and points (N, 3) in m.
+    """
     middle = (points.max(axis=0) + points.min(axis=0)) / 2
     x, y, z = STANDARD_DIRECTION
     return (

@@ -79,7 +79,10 @@ def _colour(tile: Tile, values: np.ndarray | None, scale: ColourScale) -> Scene:
 def lay_out(
     tiles: Sequence[Tile], views: Sequence[np.ndarray], caption: Caption, columns: int
 ) -> Image.Image:
-    """Return the page: title, tiles row by row with name and verdict, one colour bar."""
+    """Return the page: title, tiles row by row with name and verdict, one colour bar.
+
+    `views` are images (height, width, 3) uint8, one per tile.
+    """
     rows = -(-len(tiles) // columns)
     width, height = columns * TILE[0], HEAD + rows * (TILE[1] + WORDS) + FOOT
     page = Image.new("RGB", (width, height), "white")

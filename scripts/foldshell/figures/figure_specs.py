@@ -38,7 +38,10 @@ def specify_field(
     extra: tuple[Lines, ...] = (),
     keys: tuple[Key, ...] = (),
 ) -> FigureSpec:
-    """Return the sheet coloured by values of its cells (C,) or nodes (N,)."""
+    """Return the sheet coloured by values of its cells (C,) or nodes (N,).
+
+    Values keep the unit of their scale; points (N, 3) m.
+    """
     state = view.state
     points = state.cells.nodes if points is None else points
     lines, line_keys = crease_lines(view, points)
@@ -71,7 +74,10 @@ def describe_verdict(report: Mapping[str, Any]) -> str:
 
 
 def crease_lines(view: DesignView, points: np.ndarray) -> tuple[tuple[Lines, ...], tuple[Key, ...]]:
-    """Return mountains as lines, valleys as dashes, other panel borders thin, and their keys."""
+    """Return mountains as lines, valleys as dashes, other panel borders thin, and their keys.
+
+    points (V, 3) m are the sheet's vertices where they are drawn.
+    """
     creases = view.creases
     dashes = cut_dashes(points[creases.valley], view.size / 90)
     width = 2.5 * min(1.0, (DENSE / len(view.state.final["thickness"])) ** 0.5)

@@ -47,7 +47,10 @@ def _add(depths: list, shapes: list, more: tuple[list, list]) -> None:
 
 
 def to_pixels(camera: Camera, points: np.ndarray, size: tuple[int, int]) -> np.ndarray:
-    """Return pixel coordinates (N, 2), x to the right and y down, of points (N, 3)."""
+    """Return pixel coordinates (N, 2), x to the right and y down, of points (N, 3).
+
+    Points in m.
+    """
     half = size[1] / 2
     return camera.project(points) * (half, -half) + (size[0] / 2, half)
 

@@ -60,7 +60,10 @@ def draw_panels(axes: Axes, panels: np.ndarray):
 
 
 def group_medians(first: np.ndarray, second: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the medians of both, (G,) each, in groups of equally many by rising `first`."""
+    """Return the medians of both, (G,) each, in groups of equally many by rising `first`.
+
+    first and second (N,) in any unit.
+    """
     order = np.argsort(first, kind="stable")
     groups = [group for group in np.array_split(order, BINS) if len(group)]
     return (
@@ -70,7 +73,10 @@ def group_medians(first: np.ndarray, second: np.ndarray) -> tuple[np.ndarray, np
 
 
 def describe_correlation(panels: Sequence[np.ndarray]) -> str:
-    """Return the rank correlation of all panels, and the median over designs, as words."""
+    """Return the rank correlation of all panels, and the median over designs, as words.
+
+    `panels` has (2, P) per design: planarity and utilization, both without unit.
+    """
     pooled = rank_correlation(*np.concatenate(panels, axis=1))
     within = [value for one in panels if np.isfinite(value := rank_correlation(*one))]
     median = f"{np.median(within):+.2f}" if within else "none"

@@ -50,7 +50,10 @@ def has_opengl() -> bool:
 def draw_scenes(
     scenes: Sequence[Scene], cameras: Sequence[Camera], size: tuple[int, int]
 ) -> list[np.ndarray]:
-    """Return the images of the scenes as VTK renders them off-screen."""
+    """Return the images of the scenes as VTK renders them off-screen.
+
+    Each is (height, width, 3) uint8.
+    """
     if not os.environ.get("DISPLAY"):
         os.environ.setdefault("VTK_DEFAULT_OPENGL_WINDOW", "vtkEGLRenderWindow")
     import vtkmodules.vtkRenderingOpenGL2  # noqa: F401 - makes the window's class known

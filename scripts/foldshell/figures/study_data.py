@@ -143,7 +143,7 @@ def add_fields(design: StudyDesign, state: DesignState) -> StudyDesign:
 
 
 def utilization_edges() -> np.ndarray:
-    """Return the edges (B + 1,) of the bins; the last bin has no upper end."""
+    """Return the edges (B + 1,) of the bins; the last bin has no upper end. Without unit."""
     count = round(UTILIZATION_END / UTILIZATION_BIN)
     return np.append(np.arange(count + 1) * UTILIZATION_BIN, np.inf)
 

@@ -44,14 +44,17 @@ def draw_states(states: Sequence[np.ndarray], grid: Grid) -> list[np.ndarray]:
 
 
 def list_states(sheet: Sheet) -> list[np.ndarray]:
-    """States of a sheet's folding path, flat state first."""
+    """States of a sheet's folding path, flat state first. Each is (V, 3) m."""
     path = [frame.vertices for frame in sheet.path]
     starts_flat = bool(path) and np.ptp(path[0][:, 2]) <= 1e-9 * np.ptp(path[0])
     return path if starts_flat else [sheet.flat, *path]
 
 
 def write_animation(path: str | Path, images: Sequence[np.ndarray], seconds: float = 0.2) -> None:
-    """Write images as a GIF that folds and unfolds without end."""
+    """Write images as a GIF that folds and unfolds without end.
+
+    Each image is (height, width, 3) uint8; `seconds` is the time of one.
+    """
     from PIL import Image
 
     there = [Image.fromarray(image) for image in images]
@@ -64,7 +67,10 @@ def write_animation(path: str | Path, images: Sequence[np.ndarray], seconds: flo
 
 
 def write_stills(folder: str | Path, images: Sequence[np.ndarray]) -> list[Path]:
-    """Write images as still_00.png, still_01.png, ... into a folder; return their paths."""
+    """Write images as still_00.png, still_01.png, ... into a folder; return their paths.
+
+    Each image is (height, width, 3) uint8.
+    """
     from PIL import Image
 
     paths = [Path(folder) / f"still_{number:02d}.png" for number in range(len(images))]

@@ -27,11 +27,14 @@ class PlanarPanels:
 
     @property
     def columns(self) -> np.ndarray:
-        """Unknowns (P, 12)."""
+        """Unknowns (P, 12). Numbers 3 v + axis of the vertices' coordinates."""
         return vertex_columns(self.quads)
 
     def evaluate(self, vertices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Residual (P,) and derivatives (P, 12)."""
+        """Residual (P,) and derivatives (P, 12).
+
+        vertices (V, 3) m; the residual has no unit, its derivatives are 1/m.
+        """
         a, b, c, d = (vertices[self.quads[:, k]] for k in range(4))
         scale = np.sqrt(self.weight) / self.volumes
         by_b = np.cross(c - a, d - a)
@@ -56,12 +59,18 @@ class VertexAngles:
 
     @property
     def columns(self) -> np.ndarray:
-        """Unknowns (N, 15): the vertex, then its four neighbours in turn."""
+        """Unknowns (N, 15): the vertex, then its four neighbours in turn.
+
+        Numbers 3 v + axis of the vertices' coordinates.
+        """
         around = [self.corners[0][:, 0], *(corner[:, 1] for corner in self.corners)]
         return vertex_columns(np.stack(around, axis=1))
 
     def evaluate(self, vertices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Residual (N,) and derivatives (N, 15)."""
+        """Residual (N,) and derivatives (N, 15).
+
+        vertices (V, 3) m; the residual has no unit, its derivatives are 1/m.
+        """
         angles = measure_sectors(vertices, self.corners)
         values = np.zeros((angles.shape[1], 5, 3))
         for k, sign in enumerate(self.signs):
@@ -77,7 +86,10 @@ class VertexAngles:
 def differentiate_sectors(
     vertices: np.ndarray, corners: np.ndarray
 ) -> tuple[np.ndarray, np.ndarray]:
-    """u x n / |u|2 and n x v / |v|2: how angles (N,) follow the ends of their two arms."""
+    """u x n / |u|2 and n x v / |v|2: how angles (N,) follow the ends of their two arms.
+
+    vertices (V, 3) m, corners (N, 3) as numbers; both (N, 3) rad/m.
+    """
     one = vertices[corners[:, 1]] - vertices[corners[:, 0]]
     two = vertices[corners[:, 2]] - vertices[corners[:, 0]]
     normal = np.cross(one, two)
@@ -100,11 +112,14 @@ class Fairness:
 
     @property
     def columns(self) -> np.ndarray:
-        """Unknowns (3m, 4)."""
+        """Unknowns (3m, 4). Numbers 3 v + axis of the vertices' coordinates."""
         return (3 * self.chains[:, None, :] + np.arange(3)[:, None]).reshape(-1, 4)
 
     def evaluate(self, vertices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Residual (3m,) and derivatives (3m, 4)."""
+        """Residual (3m,) and derivatives (3m, 4).
+
+        vertices (V, 3) m; the residual has no unit, its derivatives are 1/m.
+        """
         factors = np.sqrt(self.weight) / self.reference * np.array([1.0, -3.0, 3.0, -1.0])
         residual = np.einsum("k,mkc->mc", factors, vertices[self.chains]).ravel()
         return residual, np.broadcast_to(factors, (len(residual), 4))
@@ -128,7 +143,10 @@ def find_chains(grid: Grid) -> np.ndarray:
 def require_planar(
     grid: Grid, vertices: np.ndarray, reference: float, weight: float
 ) -> PlanarPanels:
-    """Planar panels, scaled by the panels' size in `vertices`."""
+    """Planar panels, scaled by the panels' size in `vertices`.
+
+    vertices (V, 3) m, reference in m; residuals have no unit.
+    """
     a, b, c, d = (vertices[grid.quads[:, k]] for k in range(4))
     areas = np.linalg.norm(np.cross(c - a, d - b), axis=1)
     return PlanarPanels(grid.quads, areas * reference, weight)
@@ -155,11 +173,17 @@ class CornerRange:
 
     @property
     def columns(self) -> np.ndarray:
-        """Unknowns (N, 9): vertex and both arms."""
+        """Unknowns (N, 9): vertex and both arms.
+
+        Numbers 3 v + axis of the vertices' coordinates.
+        """
         return vertex_columns(self.corners)
 
     def evaluate(self, vertices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Residual (N,) and derivatives (N, 9)."""
+        """Residual (N,) and derivatives (N, 9).
+
+        vertices (V, 3) m; the residual has no unit, its derivatives are 1/m.
+        """
         angles = measure_sectors(vertices, self.corners)
         by_one, by_two = differentiate_sectors(vertices, self.corners)
         excess = angles - np.clip(angles, self.low, self.high)

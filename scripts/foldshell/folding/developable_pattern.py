@@ -101,6 +101,8 @@ def find_faults(
     """Say what keeps a shape of met constraints from being true origami.
 
     `closure` [m] is how far the copies of a vertex may lie apart in the unfolded sheet.
+
+    vertices (V, 3) m.
     """
     grid = sheet.grid
     if not unfolded.closure <= closure:

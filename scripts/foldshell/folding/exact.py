@@ -77,6 +77,8 @@ def solve_exactly(
 
     Their weight grows tenfold per stage, 1 to 1e4 (1e7 in rigid mode, where the target pulls
     against them); each stage starts from the last and shares one symbolic factorisation.
+
+    start (V, 3) m.
     """
     # In rigid mode the target is only a pull, so its minimum is worth finding more closely.
     tolerance = 1e-3 if rigid else 1e-2
@@ -99,7 +101,7 @@ def solve_exactly(
 
 
 def measure_residual(constraints: Sequence[Term], vertices: np.ndarray) -> float:
-    """max |r| over all constraints at vertices (V, 3)."""
+    """max |r| over all constraints at vertices (V, 3). Vertices in m, the residual without unit."""
     return max(float(np.abs(term.evaluate(vertices)[0]).max()) for term in constraints)
 
 
@@ -122,6 +124,8 @@ def project_vertices(
     (J^T J + e I) dx = -J^T r with a tiny e: dependent constraints do no harm, and each step's
     error is taken up by the next. What is returned is the state of the least residual, and that
     residual, whether or not it is small.
+
+    start (V, 3) m.
     """
     equations = NormalEquations([term.columns for term in constraints], start.size)
     vertices, best, least, iteration = start, start, np.inf, 0

@@ -28,7 +28,10 @@ def find_intersections(vertices: np.ndarray, facets: np.ndarray) -> np.ndarray:
 
 
 def pierce_triangles(start: np.ndarray, end: np.ndarray, triangle: np.ndarray) -> np.ndarray:
-    """Moeller-Trumbore: which segments (N, 3)-(N, 3) cross the inside of triangles (N, 3, 3)."""
+    """Moeller-Trumbore: which segments (N, 3)-(N, 3) cross the inside of triangles (N, 3, 3).
+
+    Points in m.
+    """
     direction = end - start
     edge_1, edge_2 = triangle[:, 1] - triangle[:, 0], triangle[:, 2] - triangle[:, 0]
     across = np.cross(direction, edge_2)

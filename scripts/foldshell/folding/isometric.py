@@ -147,6 +147,8 @@ def sway_widths(strip_count: int, sway: float) -> np.ndarray:
 
     1 + e and 1 - e in turn, with e = sway (4 u2 - 1) / 3 for u from -1 to 1 along the zig-zag:
     its mean slope is e / tan(sector angle).
+
+    Without unit.
     """
     place = np.linspace(-1.0, 1.0, strip_count - 1)
     sign = np.where(np.arange(strip_count - 1) % 2 == 0, 1.0, -1.0)

@@ -61,8 +61,7 @@ def minimise_terms(
             trial_cost = half_squares(rows)
         if trial_cost < cost:
             shift = damping * equations.diagonal(matrix)
-            gain = (cost - trial_cost) / (0.5 * step @ (shift * step - gradient))
-            damping, growth = damping * max(1 / 5, 1 - (2 * gain - 1) ** 3), 2.0
+            damping, growth = _relax(damping, shift, step, gradient, cost - trial_cost), 2.0
             if cost - trial_cost <= cost_tolerance * cost:
                 reason = f"cost fell by less than {cost_tolerance:g} of itself"
             fall = (cost - trial_cost) / cost
@@ -77,8 +76,19 @@ def minimise_terms(
     return Minimum(vertices, cost, slope, iteration, bool(reason), said, fall)
 
 
+def _relax(
+    damping: float, shift: np.ndarray, step: np.ndarray, gradient: np.ndarray, fall: float
+) -> float:
+    """Nielsen's damping after a step (n,) that was taken, by how well the cost's fall was told."""
+    gain = fall / (0.5 * step @ (shift * step - gradient))
+    return damping * max(1 / 5, 1 - (2 * gain - 1) ** 3)
+
+
 def half_squares(rows: Sequence[tuple[np.ndarray, np.ndarray]]) -> float:
-    """1/2 sum of squared residuals; infinite where one is not finite."""
+    """1/2 sum of squared residuals; infinite where one is not finite.
+
+    Each row holds a residual (m,) and its derivatives (m, k).
+    """
     cost = 0.5 * sum(float(residual @ residual) for residual, _ in rows)
     return cost if np.isfinite(cost) else np.inf
 

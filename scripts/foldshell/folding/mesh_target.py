@@ -138,6 +138,8 @@ class MeshTarget:
 
         `arc` runs between minus and plus half the section's length; the section's own middle
         by length is where it is 0.
+
+        arc (k,) m; returns (k,) m.
         """
         along, length = self._sections[axis]
         middle = 0.5 * (length[0] + length[-1])

@@ -53,7 +53,10 @@ class NormalEquations:
         self._factor = cholmod.symbolic(self._matrix)
 
     def assemble(self, rows: Rows) -> tuple[np.ndarray, np.ndarray]:
-        """Values (nnz,) of the lower triangle of J^T J, and the gradient J^T r (n,)."""
+        """Values (nnz,) of the lower triangle of J^T J, and the gradient J^T r (n,).
+
+        Units are those of the unknowns: cost/m2 and cost/m.
+        """
         products, gradient = [], np.zeros(self.unknowns)
         for columns, pairs, (residual, values) in zip(self.columns, self._pairs, rows, strict=True):
             products.append((values[:, pairs[0]] * values[:, pairs[1]]).ravel())
@@ -63,11 +66,14 @@ class NormalEquations:
         return total, gradient
 
     def diagonal(self, values: np.ndarray) -> np.ndarray:
-        """Diagonal (n,) of A."""
+        """Diagonal (n,) of A. In the unit of its values (nnz,)."""
         return values[self._diagonal]
 
     def solve(self, values: np.ndarray, shift: np.ndarray, right: np.ndarray) -> np.ndarray:
-        """x of (A + diag(shift)) x = right; NotPositiveDefinite when it cannot be factorised."""
+        """x of (A + diag(shift)) x = right; NotPositiveDefinite when it cannot be factorised.
+
+        values (nnz,), shift, right and x (n,), in the units of A and J^T r.
+        """
         shifted = values.copy()
         shifted[self._diagonal] += shift
         if self.solver == "cholmod":

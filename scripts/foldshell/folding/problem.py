@@ -31,7 +31,7 @@ class Weights:
 
 
 def attracted_vertices(sheet: Sheet, attract: str) -> np.ndarray:
-    """Rows of the lowest or the highest vertices: even or odd zig-zags."""
+    """Row numbers (N,) of the lowest or the highest vertices: even or odd zig-zags."""
     if attract not in ("lowest", "highest"):
         raise ValueError(f"attract {attract!r}: must be lowest or highest")
     return np.flatnonzero(sheet.grid.zigzag_index % 2 == (attract == "highest"))

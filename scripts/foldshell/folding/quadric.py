@@ -63,7 +63,7 @@ class Quadric:
         return np.einsum("ij,ij->i", normals, points - closest)
 
     def measure_reach(self, points: np.ndarray) -> float:
-        """0: the surface has no border."""
+        """0: the surface has no border, whatever the points (N, 3) [m]."""
         del points
         return 0.0
 

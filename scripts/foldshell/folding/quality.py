@@ -74,12 +74,15 @@ def measure_quality(
 
 
 def root_mean_square(values: np.ndarray) -> float:
-    """sqrt(mean(v2)); 0 for nothing."""
+    """sqrt(mean(v2)) of values (N,) in their own unit; 0 for nothing."""
     return float(np.sqrt(np.mean(values**2))) if len(values) else 0.0
 
 
 def measure_planarity(vertices: np.ndarray, quads: np.ndarray) -> np.ndarray:
-    """Distance between the diagonals' lines over their mean length (P,), quads (P, 4)."""
+    """Distance between the diagonals' lines over their mean length (P,), quads (P, 4).
+
+    vertices (V, 3) m; the ratio has no unit.
+    """
     a, b, c, d = (vertices[quads[:, k]] for k in range(4))
     normal = np.cross(c - a, d - b)
     distance = np.abs(np.einsum("ij,ij->i", b - a, normal)) / np.linalg.norm(normal, axis=1)
@@ -87,14 +90,17 @@ def measure_planarity(vertices: np.ndarray, quads: np.ndarray) -> np.ndarray:
 
 
 def count_flipped(folds: np.ndarray, grid: Grid) -> int:
-    """Number of creases folded against their assignment."""
+    """Number of creases whose fold angle (E,) [rad] is against their assignment."""
     wrong_valley = (grid.assignments == "V") & (folds < 0)
     wrong_mountain = (grid.assignments == "M") & (folds > 0)
     return int((wrong_valley | wrong_mountain).sum())
 
 
 def find_convex(vertices: np.ndarray, quads: np.ndarray) -> np.ndarray:
-    """Panels (P,) all of whose corners turn the same way about the panel's mean normal."""
+    """Panels (P,) all of whose corners turn the same way about the panel's mean normal.
+
+    vertices (V, 3) m, quads (P, 4); bool.
+    """
     corners = vertices[quads]
     normal = np.cross(corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1])
     ahead = np.roll(corners, -1, axis=1) - corners
@@ -109,13 +115,19 @@ def measure_sides(vertices: np.ndarray, polygons: np.ndarray) -> np.ndarray:
 
 
 def measure_edge_ratio(vertices: np.ndarray, quads: np.ndarray) -> np.ndarray:
-    """Longest over shortest side of each panel (P,)."""
+    """Longest over shortest side of each panel (P,).
+
+    vertices (V, 3) m, quads (P, 4); the ratio has no unit.
+    """
     sides = measure_sides(vertices, quads)
     return sides.max(axis=1) / sides.min(axis=1)
 
 
 def measure_strain(vertices: np.ndarray, flat: np.ndarray, facets: np.ndarray) -> np.ndarray:
-    """Largest edge strain of each facet (F,)."""
+    """Largest edge strain of each facet (F,).
+
+    vertices and flat (V, 3) m, facets (F, 3); strain has no unit.
+    """
     strain = measure_sides(vertices, facets) / measure_sides(flat, facets) - 1
     return np.abs(strain).max(axis=1)
 
@@ -127,6 +139,8 @@ def measure_coverage(
 
     Each facet's bounding box in plan is scanned; its points are tested by the signs of the
     three edge functions, whichever way up the facet is.
+
+    vertices (V, 3) m, facets (F, 3), span in m.
     """
     spacing = span / samples
     corners = vertices[facets][:, :, :2] / spacing + samples / 2 - 0.5

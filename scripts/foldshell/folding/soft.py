@@ -34,7 +34,10 @@ def fold_softly(sheet: Sheet, target: Target, settings: FoldSettings) -> Shape:
 def minimise_softly(
     terms: Sequence[Term], start: np.ndarray, settings: FoldSettings, span: float
 ) -> Minimum:
-    """argmin over vertices (V, 3) of 1/2 sum r2 by the engine of the settings, from `start`."""
+    """argmin over vertices (V, 3) of 1/2 sum r2 by the engine of the settings, from `start`.
+
+    Vertices in m.
+    """
     explicit = settings.engine == "averaged_projections"
     minimise = average_projections if explicit else minimise_terms
     return minimise(

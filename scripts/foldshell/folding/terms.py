@@ -66,7 +66,7 @@ class Target(Protocol):
         ...
 
     def walk_section(self, axis: int, arc: np.ndarray) -> np.ndarray:
-        """Coordinate at arc length from the middle of a central section [m]."""
+        """Coordinate (k,) [m] at arc length (k,) [m] from the middle of a central section."""
         ...
 
 

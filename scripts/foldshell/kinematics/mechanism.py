@@ -54,13 +54,19 @@ def build_jacobian(term: Term, vertices: np.ndarray) -> np.ndarray:
 
 
 def build_compatibility(vertices: np.ndarray, grid: Grid) -> np.ndarray:
-    """Strains of all edges, neutral folds too, by vertex motions: (E, 3V)."""
+    """Strains of all edges, neutral folds too, by vertex motions: (E, 3V).
+
+    vertices (V, 3) m; strains per m of motion, 1/m.
+    """
     edge = vertices[grid.edges[:, 1]] - vertices[grid.edges[:, 0]]
     return build_jacobian(Stretch(grid.edges, np.linalg.norm(edge, axis=1), 1.0), vertices)
 
 
 def count_mechanisms(vertices: np.ndarray, grid: Grid, rigid_panels: bool) -> Mechanisms:
-    """Count freedoms and self-stresses; `rigid_panels` forbids bending at neutral folds too."""
+    """Count freedoms and self-stresses; `rigid_panels` forbids bending at neutral folds too.
+
+    vertices (V, 3) in any unit of length.
+    """
     rows = build_compatibility(vertices, grid) * np.ptp(vertices)
     if rigid_panels:
         hinges = find_hinges(grid.facets, grid.edges)
@@ -73,7 +79,10 @@ def count_mechanisms(vertices: np.ndarray, grid: Grid, rigid_panels: bool) -> Me
 
 
 def find_lifts(vertices: np.ndarray, grid: Grid) -> np.ndarray:
-    """Orthonormal basis (N, k) of the heights that isometries give the lowest vertices."""
+    """Orthonormal basis (N, k) of the heights that isometries give the lowest vertices.
+
+    vertices (V, 3) m; the basis has no unit.
+    """
     motions = null_space(build_compatibility(vertices, grid) * np.ptp(vertices), rcond=1e-11)
     lifts = motions[2::3][grid.zigzag_index % 2 == 0]
     left, values, _ = np.linalg.svd(lifts, full_matrices=False)
@@ -85,6 +94,8 @@ def measure_isometry(vertices: np.ndarray, grid: Grid) -> dict[str, float]:
 
     0 says that the sheet follows the shape without stretching, to first order. The saddle is
     x2 - r y2 with the r that suits best.
+
+    vertices (V, 3) m; shares without unit.
     """
     shapes, basis = sample_shapes(vertices, grid), find_lifts(vertices, grid)
     saddle, _ = find_saddle(vertices, grid)
@@ -93,14 +104,20 @@ def measure_isometry(vertices: np.ndarray, grid: Grid) -> dict[str, float]:
 
 
 def sample_shapes(vertices: np.ndarray, grid: Grid) -> dict[str, np.ndarray]:
-    """Twist xy, dome x2 + y2, cylinders x2 and y2 at the lowest vertices, rigid part removed."""
+    """Twist xy, dome x2 + y2, cylinders x2 and y2 at the lowest vertices, rigid part removed.
+
+    vertices (V, 3) m; each shape (N,) m2.
+    """
     x, y = _centred_plan(vertices, grid)
     shapes = {"twist": x * y, "dome": x**2 + y**2, "arch": x**2, "arch_strip": y**2}
     return {name: _without_plane(values, x, y) for name, values in shapes.items()}
 
 
 def find_saddle(vertices: np.ndarray, grid: Grid) -> tuple[float, float]:
-    """Smallest residual of x2 - r y2 over r, and that r: minus the bending Poisson's ratio."""
+    """Smallest residual of x2 - r y2 over r, and that r: minus the bending Poisson's ratio.
+
+    vertices (V, 3) in any unit of length; both results have none.
+    """
     shapes, basis = sample_shapes(vertices, grid), find_lifts(vertices, grid)
     pair = np.column_stack([shapes["arch"], shapes["arch_strip"]])
     missed = pair - basis @ (basis.T @ pair)

@@ -77,6 +77,8 @@ def meet_circles(
 
     `height_squared` is r2 - (d/2)2 for radius r and centre distance d, which the caller can
     give in a factored form that keeps its digits when the circles nearly touch.
+
+    Centres and the point returned are (3,) m, `height_squared` is m2.
     """
     if fold not in ("M", "V"):
         raise ValueError(f"fold {fold!r}: must be 'M' or 'V'")

@@ -52,7 +52,10 @@ def surface_loads(
 def combination_matrix(
     combinations: Mapping[str, Mapping[str, float]], cases: Sequence[str] = LOAD_CASES
 ) -> np.ndarray:
-    """Return the factors (cases, combinations) by which load cases are superposed."""
+    """Return the factors (cases, combinations) by which load cases are superposed.
+
+    Factors without unit.
+    """
     return np.array(
         [[factors.get(case, 0.0) for factors in combinations.values()] for case in cases]
     )

@@ -53,17 +53,17 @@ class Drawing:
 
     @property
     def low(self) -> np.ndarray:
-        """Lower left corner [mm]."""
+        """Lower left corner (2,) [mm]."""
         return self.outline.min(axis=0)
 
     @property
     def high(self) -> np.ndarray:
-        """Upper right corner [mm]."""
+        """Upper right corner (2,) [mm]."""
         return self.outline.max(axis=0)
 
     @property
     def size(self) -> np.ndarray:
-        """Width and height [mm]."""
+        """Width and height (2,) [mm]."""
         return self.high - self.low
 
     @property

@@ -92,7 +92,10 @@ def remove_creases(grid: Grid) -> Grid:
 
 
 def split_quads(quads: np.ndarray, column: np.ndarray) -> np.ndarray:
-    """Split panels (P, 4) along the diagonal of their column's parity into facets (2P, 3)."""
+    """Split panels (P, 4) along the diagonal of their column's parity into facets (2P, 3).
+
+    column (P,); all of them numbers.
+    """
     a, b, c, d = quads.T
     even = (column % 2 == 0)[:, None]
     first = np.where(even, np.stack([a, b, d], 1), np.stack([a, b, c], 1))
@@ -101,7 +104,7 @@ def split_quads(quads: np.ndarray, column: np.ndarray) -> np.ndarray:
 
 
 def find_outline(grid: Grid) -> np.ndarray:
-    """Border vertices in counter-clockwise order."""
+    """Border vertices (K,) in counter-clockwise order, as row numbers."""
     number = np.arange(grid.zigzag_count * grid.strip_count).reshape(
         grid.zigzag_count, grid.strip_count
     )
@@ -127,6 +130,8 @@ def find_hinges(facets: np.ndarray, edges: np.ndarray) -> Hinges:
 
     facets (F, 3) counter-clockwise from above, edges (E, 2) in any order and direction; the
     left facet is the one that runs along the edge from its first to its second vertex.
+
+    All of them are numbers of vertices.
     """
     count = int(facets.max()) + 1
     start = facets.ravel()

@@ -4,6 +4,7 @@ Panels are laid one after the other across shared edges; how far apart the copie
 then lie is the closure, 0 for a developable sheet (and, folding, for a rigidly foldable one).
 """
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -42,7 +43,10 @@ def unfold_panels(vertices: np.ndarray, grid: Grid) -> Assembly:
 
 
 def flatten_panels(corners: np.ndarray) -> np.ndarray:
-    """Complex coordinates (P, 4) of panels (P, 4, 3) in their own planes, seen from above."""
+    """Complex coordinates (P, 4) of panels (P, 4, 3) in their own planes, seen from above.
+
+    All in m.
+    """
     diagonals = corners[:, 2] - corners[:, 0], corners[:, 3] - corners[:, 1]
     normal = np.cross(*diagonals)
     normal /= np.linalg.norm(normal, axis=1)[:, None]
@@ -89,6 +93,8 @@ def scale_folds(folds: np.ndarray, part: float) -> np.ndarray:
     """tan(phi / 2) times `part`: the fold angles of a rigidly foldable sheet on its way.
 
     At flat-foldable vertices of degree four the half tangents keep their ratios (Tachi, 2009).
+
+    Angles in rad.
     """
     return 2 * np.arctan(part * np.tan(folds / 2))
 
@@ -163,7 +169,10 @@ def follow_path(
 
 
 def fit_onto(vertices: np.ndarray, onto: np.ndarray) -> np.ndarray:
-    """Move vertices (V, 3) rigidly to the least sum of squared distances from `onto` (V, 3)."""
+    """Move vertices (V, 3) rigidly to the least sum of squared distances from `onto` (V, 3).
+
+    All in m.
+    """
     centre, there = vertices.mean(axis=0), onto.mean(axis=0)
     return (vertices - centre) @ _fit_rotation(vertices - centre, onto - there) + there
 
@@ -179,7 +188,10 @@ def _fit_rotation(points: np.ndarray, onto: np.ndarray) -> np.ndarray:
 
 
 def turn_towards(vertices: np.ndarray, onto: np.ndarray, part: float) -> np.ndarray:
-    """Turn vertices (V, 3) by `part` of the rotation that lays them on their copy `onto`."""
+    """Turn vertices (V, 3) by `part` of the rotation that lays them on their copy `onto`.
+
+    All in m; the part has no unit.
+    """
     centre = vertices.mean(axis=0)
     turn = _fit_rotation(vertices - centre, onto - onto.mean(axis=0)).T
     axis = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
@@ -191,7 +203,10 @@ def turn_towards(vertices: np.ndarray, onto: np.ndarray, part: float) -> np.ndar
 
 
 def lay_level(vertices: np.ndarray, grid: Grid) -> np.ndarray:
-    """Turn a state about its middle so that its facets face upwards on the mean."""
+    """Turn a state about its middle so that its facets face upwards on the mean.
+
+    vertices (V, 3) m, as returned.
+    """
     corners = vertices[grid.facets]
     area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]).sum(axis=0)
     axis = np.cross(area, [0.0, 0.0, 1.0])
@@ -204,7 +219,10 @@ def lay_level(vertices: np.ndarray, grid: Grid) -> np.ndarray:
 
 
 def find_overlap(flat: np.ndarray, grid: Grid) -> bool:
-    """Tell whether the flat sheet overlaps itself: a facet turned over, or its border crossing."""
+    """Tell whether the flat sheet overlaps itself: a facet turned over, or its border crossing.
+
+    flat (V, 3) m, of which x and y count.
+    """
     corners = flat[grid.facets][:, :, :2]
     one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     if (one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0] <= 0).any():
@@ -231,6 +249,8 @@ def describe_true_sheet(
     """Build the sheet of a folded design: its flat state, its path, its shape.
 
     The rigid path is kept only if panels stay together on it, to RIGID of the sheet's size.
+
+    flat and folded (V, 3) m; parts (E,) say how much of each fold the path turns, without unit.
     """
     frames = [Frame("folded", folded)]
     if sheet.kind not in ("smooth", "flat"):
@@ -245,3 +265,18 @@ def describe_true_sheet(
     return replace(
         sheet, flat=flat, rest=folded, path=tuple(frames), settings=settings, unrolled=None
     )
+
+
+def name_flat_state(grid: Grid, folded: Mapping[str, np.ndarray], fold_mode: str) -> str:
+    """Name what the flat state of folded.npz is: unfolded, or the given pattern and its stretch.
+
+    `folded` holds the arrays of folded.npz: flat and vertices (V, 3) m.
+    """
+    if fold_mode in ("exact", "rigid"):
+        return "unfolded from the folded shape"
+    flat, shape = (
+        np.linalg.norm(np.diff(folded[name][grid.edges], axis=1)[:, 0], axis=1)
+        for name in ("flat", "vertices")
+    )
+    stretch = np.abs(shape / flat - 1).max()
+    return f"the given pattern (mode {fold_mode}: its sides stretch by up to {100 * stretch:.2g} %)"

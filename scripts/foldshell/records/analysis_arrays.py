@@ -48,11 +48,17 @@ class AnalysisArrays:
     panel_area: np.ndarray | None = array("P", "m2", "areas of panels, where there are gradients")
 
     def utilization(self, measure: str) -> np.ndarray | None:
-        """Return the utilization (P,) of panels by a measure, None where there is none."""
+        """Return the utilization (P,) of panels by a measure, None where there is none.
+
+        Without unit.
+        """
         return getattr(self, f"utilization_{measure}")
 
     def edge_beam_utilization(self, measure: str) -> np.ndarray | None:
-        """Return that of the panels of the edge beam (B,), None where there is none."""
+        """Return that of the panels of the edge beam (B,), None where there is none.
+
+        Without unit.
+        """
         return getattr(self, f"edge_beam_utilization_{measure}")
 
 

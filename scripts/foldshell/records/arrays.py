@@ -69,6 +69,8 @@ def make_typed_arrays(kind: type[Arrays], found: Mapping[str, np.ndarray]) -> Ar
     """Return named arrays as those of a class.
 
     Raises `ValueError` that names an array which is missing or of other axes.
+
+    Axes and units are those that the class states, such as (P,) m.
     """
     sizes: dict[str, int] = {}
     for name, about in array_entries(kind).items():
@@ -94,7 +96,10 @@ def _check_axes(
 
 
 def list_arrays(arrays: Any) -> dict[str, np.ndarray]:
-    """Return the arrays that there are, by name."""
+    """Return the arrays that there are, by name.
+
+    Axes and units are those that the class states, such as (P,) m.
+    """
     named = {name: getattr(arrays, name) for name in array_entries(type(arrays))}
     return {name: values for name, values in named.items() if values is not None}
 

@@ -18,6 +18,8 @@ def pack_arrays(arrays: Mapping[str, np.ndarray]) -> tuple[list[dict[str, Any]],
     Whole numbers keep their value in the least of uint8, uint16, uint32 that holds them. Real
     ones are rounded to value = low + step * number, number in 0 ... 65534, and nan is 65535. Each
     array starts at a multiple of 4 bytes. Little-endian.
+
+    Arrays of any shape, such as (P,) or (V, 3), and unit.
     """
     headers, parts, offset = [], [], 0
     for name, values in arrays.items():
@@ -33,7 +35,12 @@ def pack_arrays(arrays: Mapping[str, np.ndarray]) -> tuple[list[dict[str, Any]],
 
 
 def unpack_arrays(headers: Sequence[Mapping[str, Any]], text: str) -> dict[str, np.ndarray]:
-    """Return the arrays by name: what the page does, for tests and other readers."""
+    """Return the arrays by name: what the page does, for tests and other readers.
+
+    Shapes, such as (P,) or (V, 3), stand in the headers.
+
+    Shapes, such as (P,) or (V, 3), stand in the headers; units are those that were packed.
+    """
     data = zlib.decompress(base64.b64decode(text))
     arrays = {}
     for header in headers:

@@ -51,7 +51,7 @@ class ColourScale:
     limit: float | None = None
 
     def colour(self, values: np.ndarray) -> np.ndarray:
-        """Return (..., 3) uint8 of values (...); nan is grey."""
+        """Return (..., 3) uint8 of values (...); nan is grey. Values in the unit of the scale."""
         values = np.asarray(values, dtype=float)
         share = (values - self.low) / (self.high - self.low)
         finite = np.isfinite(share)
@@ -79,6 +79,8 @@ def make_scale(
     """Return a scale between round numbers that holds all finite values; `zero` starts at 0.
 
     Its range is `least` or more, so that rounding errors about 0 do not look like a field.
+
+    values (N,) or of other shape, in the unit that the scale then has.
     """
     finite = values[np.isfinite(values)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
@@ -93,7 +95,10 @@ def make_scale(
 
 
 def make_limit_scale(values: np.ndarray, limit: float) -> ColourScale:
-    """Return a scale from 0 to `limit`, or to less than half of it where nothing comes near."""
+    """Return a scale from 0 to `limit`, or to less than half of it where nothing comes near.
+
+    values (N,) or of other shape, in the unit of the limit.
+    """
     finite = values[np.isfinite(values)]
     if finite.size and finite.max() < limit / 2:
         return make_scale(finite, zero=True)

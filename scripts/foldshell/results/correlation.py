@@ -4,7 +4,10 @@ import numpy as np
 
 
 def rank_correlation(first: np.ndarray, second: np.ndarray) -> float:
-    """Return Spearman's rank correlation; equal values share the mean of their ranks."""
+    """Return Spearman's rank correlation; equal values share the mean of their ranks.
+
+    first and second (N,) in any unit.
+    """
     return linear_correlation(_rank(first), _rank(second))
 
 
@@ -15,7 +18,7 @@ def _rank(values: np.ndarray) -> np.ndarray:
 
 
 def linear_correlation(first: np.ndarray, second: np.ndarray) -> float:
-    """Return Pearson's correlation."""
+    """Return Pearson's correlation of first and second (N,), in any unit."""
     if np.ptp(first) == 0 or np.ptp(second) == 0:
         return float("nan")
     return float(np.corrcoef(first, second)[0, 1])

@@ -89,7 +89,10 @@ def facet_axes(normal: np.ndarray) -> np.ndarray:
 
 
 def rotate_forces(force: np.ndarray, frame: np.ndarray, axes: np.ndarray) -> np.ndarray:
-    """N' = R N R^T: components (E, k, 3) xx, yy, xy from frames (E, 3, 3) to axes (E, 3, 3)."""
+    """N' = R N R^T: components (E, k, 3) xx, yy, xy from frames (E, 3, 3) to axes (E, 3, 3).
+
+    Any unit; frames and axes are unit vectors.
+    """
     turn = np.einsum("eax,ebx->eab", axes[:, :2], frame[:, :2])
     tensor = force_tensor(force)
     turned = np.einsum("eab,ekbc,edc->ekad", turn, tensor, turn, optimize=True)
@@ -97,7 +100,7 @@ def rotate_forces(force: np.ndarray, frame: np.ndarray, axes: np.ndarray) -> np.
 
 
 def force_tensor(force: np.ndarray) -> np.ndarray:
-    """Return (..., 2, 2) from (..., 3) xx, yy, xy."""
+    """Return (..., 2, 2) from (..., 3) xx, yy, xy. Any unit."""
     xx, yy, xy = np.moveaxis(force, -1, 0)
     return np.stack([np.stack([xx, xy], -1), np.stack([xy, yy], -1)], -2)
 

@@ -51,6 +51,8 @@ def make_history(
 
     `thicknesses` are those that each analysis read (m), `displacement_limit` is in m, and
     `edited` holds the iterations whose workbook a person has changed.
+
+    Each of `thicknesses` is (P,).
     """
     rows: list[dict[str, Any]] = []
     for index, analysis in enumerate(analyses):

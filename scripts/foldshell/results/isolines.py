@@ -15,6 +15,8 @@ def panel_node_values(
     """Return corner values (C, 3) of cell values (C,): area means over a node's cells of a panel.
 
     Panels stay apart, since stresses jump across a fold.
+
+    Any unit; triangles (C, 3) and panel (C,) are numbers, area (C,) is m2.
     """
     key = panel[:, None] * (triangles.max() + 1) + triangles
     _, number = np.unique(key, return_inverse=True)
@@ -25,7 +27,10 @@ def panel_node_values(
 
 
 def find_region_border(triangles: np.ndarray, inside: np.ndarray) -> np.ndarray:
-    """Return the edges (K, 2) between triangles (C, 3) that are inside a region and others (C,)."""
+    """Return the edges (K, 2) between triangles (C, 3) that are inside a region and others (C,).
+
+    Numbers of nodes; inside (C,) bool.
+    """
     edge = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
     edges, number = np.unique(edge, axis=0, return_inverse=True)
     number = number.reshape(-1)

@@ -98,7 +98,10 @@ def study_mesh(
 
 
 def choose_reference(folded: Mapping[str, np.ndarray], subdivisions: int) -> dict[str, Any]:
-    """Return how the reference mesh differs: of high order for folded sheets, else finer."""
+    """Return how the reference mesh differs: of high order for folded sheets, else finer.
+
+    `folded` holds the arrays of folded.npz: vertices (V, 3) m, facets (F, 3).
+    """
     if measure_mean_fold(folded["vertices"], folded["facets"]) >= SHARP:
         return REFERENCE
     finest = max(SMOOTH_REFERENCE["subdivisions"], 2 * subdivisions)
@@ -109,6 +112,8 @@ def measure_mean_fold(vertices: np.ndarray, facets: np.ndarray) -> float:
     """Return the mean angle (rad) between neighbouring facets that are not one plane, 0 for none.
 
     A panel's own two facets and those of a flat sheet do not count.
+
+    vertices (V, 3) m, facets (F, 3).
     """
     a, b, c = vertices[facets].swapaxes(0, 1)
     normal = np.cross(b - a, c - a)

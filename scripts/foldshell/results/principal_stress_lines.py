@@ -37,14 +37,17 @@ class ForceField:
     polynomial: np.ndarray
 
     def evaluate(self, element: np.ndarray, place: np.ndarray) -> np.ndarray:
-        """Return forces (K, 3) at reference points (K, 2) of elements (K,)."""
+        """Return forces (K, 3) at reference points (K, 2) of elements (K,).
+
+        kN/m; places in the reference triangle have no unit.
+        """
         values = monomials(self.mesh.order - 1, place)
         return np.matmul(self.polynomial[element], values[:, :, None])[:, :, 0]
 
     def principal(
         self, element: np.ndarray, place: np.ndarray, family: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return value (K,), local direction (K, 2) and whether there is one (K,).
+        """Return value (K,) kN/m, local direction (K, 2) and whether there is one (K,).
 
         Family (K,) 0 is the larger force, 1 the other. Where both are nearly equal no direction is
         principal.
@@ -90,7 +93,7 @@ class PrincipalStressLine:
 
 
 def barycentric(place: np.ndarray) -> np.ndarray:
-    """Return (K, 3) of reference coordinates (K, 2)."""
+    """Return (K, 3) of reference coordinates (K, 2). Without unit."""
     return np.column_stack([1 - place.sum(axis=1), place])
 
 
@@ -234,7 +237,10 @@ def _align(direction: np.ndarray, wanted: np.ndarray) -> np.ndarray:
 
 
 def find_neighbours(mesh: ShellMesh) -> np.ndarray:
-    """Return element and edge (E, 3, 2) on the other side of each edge, -1 at a border."""
+    """Return element and edge (E, 3, 2) on the other side of each edge, -1 at a border.
+
+    Numbers, as are the elements (E, n).
+    """
     order = np.argsort(mesh.element_edges.ravel(), kind="stable")
     edge = mesh.element_edges.ravel()[order]
     pair = np.flatnonzero(edge[:-1] == edge[1:])

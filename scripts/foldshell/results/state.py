@@ -58,13 +58,13 @@ class DesignState:
 
     @property
     def panel_utilization(self) -> np.ndarray:
-        """Mean utilization of sized panels and edge-beam panels, (P + B,)."""
+        """Mean utilization of sized panels and edge-beam panels, (P + B,). Without unit."""
         edge_beam = self.final.get("edge_beam_utilization_panel_mean", np.empty(0))
         return np.concatenate([self.final["utilization_panel_mean"], edge_beam])
 
     @property
     def cell_panel(self) -> np.ndarray:
-        """Panel of each cell, (C,)."""
+        """Panel of each cell, (C,). As numbers."""
         return np.repeat(self.mesh.panel, self.cells.order**2)
 
     @property
@@ -74,7 +74,7 @@ class DesignState:
 
     @property
     def utilization(self) -> np.ndarray | None:
-        """Utilization of each cell (C,), None where the analysis gave none."""
+        """Utilization of each cell (C,), None where the analysis gave none. Without unit."""
         values = self.final.get("utilization_cell")
         return None if values is None else values.ravel()
 
@@ -84,7 +84,7 @@ class DesignState:
         return self._at_cells(self.final["displacement"][:, column])
 
     def buckling_mode(self, combination: str) -> np.ndarray:
-        """Return a mode (N, 3), scaled to a largest translation of 1."""
+        """Return a mode (N, 3), scaled to a largest translation of 1. Without unit."""
         column = self.combinations.index(combination)
         free = np.ones(self.mesh.dof_count, dtype=bool)
         free[(3 * self.shell["supported_nodes"][:, None] + np.arange(3)).ravel()] = False

@@ -153,13 +153,8 @@ def analyse_shell(
     """
     options = options or AnalysisOptions()
     names = tuple(combinations)
-    surface = surface_loads(
-        model.operators.geometry.frame[:, 2],
-        thickness,
-        material.unit_weight,
-        loads,
-        model.self_weight_only,
-    )
+    normal = model.operators.geometry.frame[:, 2]
+    surface = surface_loads(normal, thickness, material.unit_weight, loads, model.self_weight_only)
     cases = nodal_forces(model.operators, surface)
     factors = combination_matrix(combinations)
     values = assemble_stiffness(model.operators, model.pattern, thickness, material.youngs_modulus)

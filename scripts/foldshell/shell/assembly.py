@@ -42,18 +42,21 @@ class LowerPattern:
 
 
 def translation_dofs(nodes: np.ndarray, directions: tuple[int, ...] = (0, 1, 2)) -> np.ndarray:
-    """Return the numbers of displacements along x (0), y (1), z (2) at nodes."""
+    """Return the numbers (k d,) of displacements at nodes (k,) along d `directions`: x is 0."""
     return (3 * np.asarray(nodes, dtype=np.int64)[:, None] + np.array(directions)).ravel()
 
 
 def rotation_dofs(mesh: ShellMesh, edges: np.ndarray) -> np.ndarray:
-    """Return the numbers of all rotation coefficients of element edges."""
+    """Return the numbers (k p,) of all rotation coefficients of element edges (k,)."""
     start = 3 * len(mesh.nodes) + mesh.order * np.asarray(edges, dtype=np.int64)
     return (start[:, None] + np.arange(mesh.order)).ravel()
 
 
 def find_pattern(operators: ShellOperators, fixed: np.ndarray) -> LowerPattern:
-    """Find where each packed element entry goes once the `fixed` freedoms are left out."""
+    """Find where each packed element entry goes once the `fixed` freedoms are left out.
+
+    `fixed` (k,) are numbers of freedoms.
+    """
     mesh = operators.mesh
     free = np.ones(mesh.dof_count, dtype=bool)
     free[np.asarray(fixed, dtype=np.int64)] = False

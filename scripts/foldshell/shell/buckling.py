@@ -74,6 +74,8 @@ def find_buckling_factors(
     factors : (cases, c) combination factors
     start : (size, c) modes of a similar structure to begin with
     tolerance : on `change`, see `BucklingResult`
+
+    Factors without unit.
     """
     first, which, ratio = _proportional_columns(factors)
     begin = None if start is None else start[:, first]

@@ -87,7 +87,10 @@ class CholmodLibrary:
             struct.pack_into("i", self._common, offset, value)
 
     def analyse(self, indptr: np.ndarray, indices: np.ndarray) -> "CholmodHandle":
-        """Analyse the pattern of a lower triangle in the order in which it is numbered."""
+        """Analyse the pattern of a lower triangle in the order in which it is numbered.
+
+        indptr (n + 1,) and indices (nnz,) of compressed columns.
+        """
         order = np.arange(len(indptr) - 1, dtype=np.int64)
         matrix = _lower_triangle(indptr, indices, None)
         factor = self._analyze_p(ctypes.byref(matrix), order.ctypes.data, None, 0, self._common)
@@ -112,7 +115,10 @@ class CholmodLibrary:
         return numeric
 
     def solve(self, numeric: "CholmodHandle", right_hand_sides: np.ndarray) -> np.ndarray:
-        """Return K^-1 B for B (size, k), all columns at once."""
+        """Return K^-1 B for B (size, k), all columns at once.
+
+        B in kN and kNm, the result in m and rad.
+        """
         block = np.asfortranarray(right_hand_sides, dtype=float)
         rows, columns = block.shape
         dense = _Dense(rows, columns, block.size, rows, block.ctypes.data, None, 1, 0)

@@ -27,7 +27,10 @@ def make_edge_beam(depth: float, thickness: float) -> EdgeBeam | None:
 
 
 def facet_edges(facets: np.ndarray) -> np.ndarray:
-    """Return the edges (C, 2) of facets (F, 3), each once, lower vertex first."""
+    """Return the edges (C, 2) of facets (F, 3), each once, lower vertex first.
+
+    All are numbers of vertices.
+    """
     return np.unique(np.sort(facets[:, EDGES].reshape(-1, 2), axis=1), axis=0)
 
 
@@ -35,6 +38,8 @@ def free_edges(facets: np.ndarray, held: np.ndarray) -> np.ndarray:
     """Return the edges (K, 2) of one facet only that are not among `held` (S, 2).
 
     Each runs as in its facet, counter-clockwise.
+
+    All are numbers of vertices.
     """
     edges = facets[:, EDGES].reshape(-1, 2)
     width = int(facets.max()) + 1

@@ -61,6 +61,8 @@ def slope_jump_operator(
     """Return dw/dn + s phi on the three edges: (E, 3p, n) of w and (E, 3p, 3p) of phi.
 
     Coefficients of Legendre polynomials scaled to mean square one on the edge.
+
+    w in m, phi in rad, the jump in rad: 1/m and 1.
     """
     order, count = mesh.order, len(mesh.elements)
     table = reference_triangle(order)
@@ -76,7 +78,10 @@ def slope_jump_operator(
 
 
 def edge_parity(mesh: ShellMesh) -> np.ndarray:
-    """Return (E, 3, p): s^(j+1), the sign of rotation coefficient j seen from the element."""
+    """Return (E, 3, p): s^(j+1), the sign of rotation coefficient j seen from the element.
+
+    It is 1 or -1, without unit.
+    """
     return (mesh.edge_signs[:, :, None] ** np.arange(1, mesh.order + 1)).astype(float)
 
 

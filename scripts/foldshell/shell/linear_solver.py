@@ -24,10 +24,13 @@ class Factor(Protocol):
     """A factorised symmetric matrix."""
 
     def refactor(self, values: np.ndarray) -> None:
-        """Factorise new values of the same pattern; raises `NotPositiveDefiniteError`."""
+        """Factorise new values of the same pattern; raises `NotPositiveDefiniteError`.
+
+        values (nnz,) in kN/m, kN and kNm.
+        """
 
     def solve(self, right_hand_sides: np.ndarray) -> np.ndarray:
-        """Return K^-1 B for B (size, k)."""
+        """Return K^-1 B for B (size, k). B in kN and kNm, the result in m and rad."""
 
 
 _ANALYSED: "weakref.WeakKeyDictionary[LowerPattern, Any]" = weakref.WeakKeyDictionary()
@@ -44,7 +47,7 @@ class CholmodFactor:
         self.refactor(values)
 
     def refactor(self, values: np.ndarray) -> None:
-        """Factorise new values of the same pattern."""
+        """Factorise new values of the same pattern. values (nnz,) in kN/m, kN and kNm."""
         pattern = self._pattern
         try:
             self._factor = self._library.factorise(
@@ -54,7 +57,7 @@ class CholmodFactor:
             raise NotPositiveDefiniteError(error.args[0]) from None
 
     def solve(self, right_hand_sides: np.ndarray) -> np.ndarray:
-        """Return K^-1 B for B (size, k)."""
+        """Return K^-1 B for B (size, k). B in kN and kNm, the result in m and rad."""
         return self._library.solve(self._factor, right_hand_sides)
 
 
@@ -74,7 +77,7 @@ class CvxoptFactor:
         self.refactor(values)
 
     def refactor(self, values: np.ndarray) -> None:
-        """Factorise new values of the same pattern."""
+        """Factorise new values of the same pattern. values (nnz,) in kN/m, kN and kNm."""
         self._lower.V = self._matrix(values)
         try:
             self._cholmod.numeric(self._lower, self._factor)
@@ -82,7 +85,7 @@ class CvxoptFactor:
             raise NotPositiveDefiniteError(int(error.args[0])) from None
 
     def solve(self, right_hand_sides: np.ndarray) -> np.ndarray:
-        """Return K^-1 B for B (size, k)."""
+        """Return K^-1 B for B (size, k). B in kN and kNm, the result in m and rad."""
         block = self._matrix(np.asfortranarray(right_hand_sides, dtype=float))
         self._cholmod.solve(self._factor, block)
         return np.array(block).reshape(right_hand_sides.shape)
@@ -96,7 +99,7 @@ class SuperLuFactor:
         self.refactor(values)
 
     def refactor(self, values: np.ndarray) -> None:
-        """Factorise new values of the same pattern."""
+        """Factorise new values of the same pattern. values (nnz,) in kN/m, kN and kNm."""
         from scipy.sparse import csc_array, tril
         from scipy.sparse.linalg import splu
 
@@ -119,7 +122,7 @@ class SuperLuFactor:
             raise NotPositiveDefiniteError(int(self._lu.perm_c.argsort()[worst]))
 
     def solve(self, right_hand_sides: np.ndarray) -> np.ndarray:
-        """Return K^-1 B for B (size, k)."""
+        """Return K^-1 B for B (size, k). B in kN and kNm, the result in m and rad."""
         return self._lu.solve(np.ascontiguousarray(right_hand_sides))
 
 
@@ -145,5 +148,7 @@ def factorise(pattern: LowerPattern, values: np.ndarray, solver: str = "cholmod"
         for a mechanism or an unstable structure.
     KeyError
         for an unknown solver.
+
+    values (nnz,) in kN/m, kN and kNm.
     """
     return SOLVERS[solver](pattern, values)

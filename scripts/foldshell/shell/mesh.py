@@ -51,7 +51,7 @@ class ShellMesh:
 
 
 def corner_positions(order: int) -> np.ndarray:
-    """Return where the three corners stand in the lattice order of an element."""
+    """Return the row numbers of the three corners (3,) in the lattice order of an element."""
     return np.array([0, order, (order + 1) * (order + 2) // 2 - 1])
 
 
@@ -112,6 +112,8 @@ def edge_polyline_nodes(mesh: ShellMesh, vertex_pairs: np.ndarray) -> np.ndarray
     ------
     ValueError
         if a pair is no edge of a facet.
+
+    All are numbers.
     """
     keys = np.sort(np.asarray(vertex_pairs), axis=1)
     width = int(mesh.node_pairs.max()) + 1

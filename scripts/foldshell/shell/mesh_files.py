@@ -49,7 +49,7 @@ def mesh_folded_sheet(
 
 
 def write_mesh(path: str | Path, arrays: dict[str, np.ndarray]) -> None:
-    """Write `mesh.npz`."""
+    """Write the arrays of `mesh.npz`, as `mesh_folded_sheet` makes them."""
     write_arrays(path, arrays)
 
 
@@ -70,13 +70,18 @@ def result_mesh(mesh: ShellMesh, vertices: np.ndarray, facets: np.ndarray) -> Sh
     """Return the linear mesh of result cells: as many along a facet edge as there are subdivisions.
 
     Its elements are those of `mesh`, in the same order, with the corners of the cells as nodes.
+
+    vertices (V, 3) m, facets (F, 3).
     """
     return build_mesh(vertices, facets, None, mesh.subdivisions, order=mesh.cells)
 
 
 def cell_triangles(cells: ShellMesh) -> np.ndarray:
     """Return the cells of a result mesh as triangles (E cells^2, 3), in the order of
-    `stress.cell_points`."""
+    `stress.cell_points`.
+
+    They are numbers of the result mesh's nodes.
+    """
     size = cells.order
     row = [sum(size + 1 - k for k in range(s)) for s in range(size + 2)]
     upward = [
@@ -91,7 +96,10 @@ def cell_triangles(cells: ShellMesh) -> np.ndarray:
 
 
 def interpolate_to_cells(mesh: ShellMesh, cells: ShellMesh, translation: np.ndarray) -> np.ndarray:
-    """Return node values (N, k) of `mesh` at the nodes of the result mesh."""
+    """Return node values (N, k) of `mesh` at the nodes of the result mesh.
+
+    `translation` (N', k) is at the nodes of `mesh`; both in m, or in any unit.
+    """
     at_corners = lagrange_basis(mesh.order, lattice_points(cells.order))[0]
     values = np.empty((len(cells.nodes), translation.shape[1]))
     values[cells.elements] = np.einsum("qn,enk->eqk", at_corners, translation[mesh.elements])
@@ -99,7 +107,10 @@ def interpolate_to_cells(mesh: ShellMesh, cells: ShellMesh, translation: np.ndar
 
 
 def write_mesh_vtu(path: str | Path, mesh: ShellMesh, arrays: dict[str, np.ndarray]) -> None:
-    """Write the result cells with panel, facet and supported nodes as a VTU (m)."""
+    """Write the result cells with panel, facet and supported nodes as a VTU (m).
+
+    `arrays` are those of mesh.npz.
+    """
     import meshio
 
     cells = result_mesh(mesh, arrays["vertices"], arrays["facets"])

@@ -23,6 +23,8 @@ def is_singular(
 
     The least eigenvalue is bounded by inverse iteration, further steps only where the first
     bound is suspiciously low.
+
+    values (nnz,) of the lower triangle in kN/m, kN and kNm; `solve` takes and gives (size, k).
     """
     diagonal = values[pattern.indptr[:-1]][:, None]
     vector = np.random.default_rng(SEED).standard_normal((pattern.size, 1))
@@ -43,6 +45,8 @@ def find_near_null_vector(
 
     By inverse iteration on K + s D with the least s of `SHIFTS` that has a factor; None if none
     has. It tells the place of a mechanism; pivots tell only where elimination met it.
+
+    values (nnz,) in kN/m, kN and kNm; the vector has no unit.
     """
     diagonal = values[pattern.indptr[:-1]]
     weight = np.where(diagonal > 0, diagonal, np.abs(diagonal).max() or 1.0)

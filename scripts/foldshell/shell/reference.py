@@ -82,7 +82,10 @@ def lattice_indices(order: int) -> np.ndarray:
 
 
 def lattice_points(order: int) -> np.ndarray:
-    """Return the lattice nodes (n, 2) of the reference triangle."""
+    """Return the lattice nodes (n, 2) of the reference triangle.
+
+    Coordinates r, s run from 0 to 1, without unit.
+    """
     return lattice_indices(order)[:, 1:] / order
 
 
@@ -114,7 +117,10 @@ def gauss_jacobi(count: int) -> tuple[np.ndarray, np.ndarray]:
 
 
 def jacobi(degree: int, alpha: int, x: np.ndarray) -> np.ndarray:
-    """Return the Jacobi polynomial P^(alpha, 0) of a degree at x (Abramowitz & Stegun 22.7.1)."""
+    """Return the Jacobi polynomial P^(alpha, 0) of a degree at x (Abramowitz & Stegun 22.7.1).
+
+    Without unit.
+    """
     before, current = np.zeros_like(x), np.ones_like(x)
     for n in range(degree):
         if n == 0:
@@ -155,7 +161,10 @@ def orthonormal_basis(degree: int, points: np.ndarray) -> np.ndarray:
 
 
 def lagrange_basis(order: int, points: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """Return values (q, n), first (2, q, n) and second (3, q, n; rr, ss, rs) derivatives."""
+    """Return values (q, n), first (2, q, n) and second (3, q, n; rr, ss, rs) derivatives.
+
+    points (q, 2) are r, s from 0 to 1; no units.
+    """
     points, lattice = points.astype(np.longdouble), lattice_points(order).astype(np.longdouble)
     to_monomials = _monomials(order, lattice, 0, 0)
     # monomials are ill-conditioned: Newton's step brings the inverse to extended precision

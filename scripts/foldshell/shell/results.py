@@ -16,7 +16,10 @@ def panel_area(model: ShellModel) -> np.ndarray:
 
 
 def panels_beside_edge_beam(model: ShellModel) -> np.ndarray:
-    """Return the sized panel (B,) from whose border each panel of an edge beam hangs."""
+    """Return the sized panel (B,) from whose border each panel of an edge beam hangs.
+
+    As numbers.
+    """
     mesh, self_weight_only = model.mesh, model.self_weight_only
     owner = np.full(mesh.edge_count, -1)
     owner[mesh.element_edges[~self_weight_only]] = mesh.panel[~self_weight_only][:, None]
@@ -35,7 +38,10 @@ def translations(model: ShellModel, displacement: np.ndarray) -> np.ndarray:
 def largest_downward(
     model: ShellModel, displacement: np.ndarray, names: Sequence[str]
 ) -> tuple[float, int, str]:
-    """Return the largest downward displacement (m), its node and its combination."""
+    """Return the largest downward displacement (m), its node and its combination.
+
+    displacement (dofs, c) m and rad.
+    """
     down = -translations(model, displacement)[:, 2]
     node, column = np.unravel_index(int(down.argmax()), down.shape)
     return float(down[node, column]), int(node), names[column]
@@ -64,7 +70,10 @@ def support_reactions(
 
 
 def reaction_imbalance(model: ShellModel, result: AnalysisResult, reactions: np.ndarray) -> float:
-    """Return |sum of reactions + loads| / |sum of loads|, the largest of all combinations."""
+    """Return |sum of reactions + loads| / |sum of loads|, the largest of all combinations.
+
+    reactions (S, 3, c) kN.
+    """
     load = translations(model, result.loads).sum(axis=0)
     gap = np.linalg.norm(reactions.sum(axis=0) + load, axis=0)
     scale = np.linalg.norm(load, axis=0)

@@ -71,7 +71,10 @@ def build_operators(mesh: ShellMesh, poissons_ratio: float) -> ShellOperators:
 
 
 def plane_stress(poissons_ratio: float) -> np.ndarray:
-    """Return the plane-stress elasticity (3, 3) for E = 1; shear strain is engineering."""
+    """Return the plane-stress elasticity (3, 3) for E = 1; shear strain is engineering.
+
+    Without unit.
+    """
     nu = poissons_ratio
     return np.array([[1, nu, 0], [nu, 1, 0], [0, 0, (1 - nu) / 2]]) / (1 - nu**2)
 

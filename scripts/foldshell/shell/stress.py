@@ -100,7 +100,10 @@ def _deflections_and_rotations(operators: ShellOperators, displacement: np.ndarr
 
 
 def cell_points(cells: int) -> np.ndarray:
-    """Return the centroids (cells^2, 2) of the equal triangles an element is divided into."""
+    """Return the centroids (cells^2, 2) of the equal triangles an element is divided into.
+
+    Reference coordinates, without unit.
+    """
     upward = [(r, s) for s in range(cells) for r in range(cells - s)]
     downward = [(r, s) for s in range(cells - 1) for r in range(cells - 1 - s)]
     first = (np.array(upward) + 1 / 3) / cells
@@ -114,6 +117,8 @@ def sample_points(cells: int) -> np.ndarray:
     An element has `SAMPLES` points along an edge, or as many as it has cells if those are more.
     Stresses peak at folds and fold vertices: a mean or a percentile over fewer points would
     depend on where they lie.
+
+    Reference coordinates, without unit.
     """
     centroids = cell_points(cells)
     inner = cell_points(-(-SAMPLES // cells)) - 1 / 3

@@ -80,7 +80,7 @@ class AdjointModel:
         return membrane, bending
 
     def sum_panels(self, elements: np.ndarray) -> np.ndarray:
-        """Sum (E, k) over the elements of each panel: (k, P)."""
+        """Sum (E, k) over the elements of each panel: (k, P). In the unit of what is summed."""
         panel = self.model.mesh.panel
         total = [np.bincount(panel, column) for column in elements.T]
         return np.array(total).reshape(-1, int(panel.max()) + 1)
@@ -89,6 +89,8 @@ class AdjointModel:
         """d lambda / dt (E,) of (K + lambda K_g(N)) x = 0 for a single factor lambda.
 
         d lambda = x^T (dK + lambda dK_g) x / (-x^T K_g x); N = t E D eps(u) changes by t and by u.
+
+        In 1/m.
         """
         operators, one = self.model.operators, np.zeros(1, dtype=np.int64)
         modulus, t = self.material.youngs_modulus, self.thickness

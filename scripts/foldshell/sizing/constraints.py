@@ -15,7 +15,10 @@ class Constraints:
     area: np.ndarray
 
     def to_arrays(self) -> dict[str, np.ndarray]:
-        """Return the arrays that analysis.npz keeps."""
+        """Return the arrays that analysis.npz keeps.
+
+        Shapes and units are those of the class: values (k,), gradients (k, P) 1/m, areas (P,) m2.
+        """
         return {
             "constraint_value": self.value,
             "constraint_gradient": self.gradient,
@@ -24,6 +27,6 @@ class Constraints:
 
 
 def read_constraints(arrays: Mapping[str, np.ndarray]) -> Constraints | None:
-    """Return the constraints that analysis.npz holds, or None."""
+    """Return the constraints that the arrays of analysis.npz hold, or None."""
     names = ("constraint_value", "constraint_gradient", "panel_area")
     return Constraints(*(arrays[name] for name in names)) if names[0] in arrays else None

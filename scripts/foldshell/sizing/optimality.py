@@ -55,6 +55,8 @@ def minimise_volume(
     multipliers l the panels follow at once, t_p = sqrt(sum_j l_j c_jp / (A_p + sum_j l_j b_jp)):
     the optimality criterion. The dual is concave; its bounded maximum is found by L-BFGS-B.
     Sources: Fleury & Braibant (1986) Int. J. Numer. Meth. Eng. 23:409; Berke & Khot (1974) AFFDL.
+
+    thickness, lower, upper and the result (P,) m.
     """
     from scipy.optimize import minimize
 

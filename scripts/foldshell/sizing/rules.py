@@ -40,7 +40,7 @@ class SizingLimits:
 
 
 def start_state(thickness: np.ndarray, step: float) -> SizingState:
-    """Return the state before the first change; utilization is not known yet."""
+    """Return the state before the first change; utilization is not known yet. thickness (P,) m."""
     zero = np.zeros(len(thickness), dtype=np.int64)
     return SizingState(
         thickness, np.full(len(thickness), np.nan), np.full(len(thickness), step), zero, zero

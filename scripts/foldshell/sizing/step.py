@@ -120,6 +120,8 @@ def choose_utilization(arrays: Mapping[str, np.ndarray], measure: str) -> np.nda
 
     No rule sizes the panels of an edge beam: the panel that one hangs from takes the larger of
     both utilizations, so that it relieves an overstressed one.
+
+    Without unit.
     """
     used = arrays.get(f"utilization_{measure}")
     if used is None or "edge_beam_panel" not in arrays:

@@ -27,6 +27,8 @@ def utilization_gradient(
 
     The combination and the surface that govern at a point are held, as is the cell of the largest
     value for `element_max`: the gradient of a maximum where it has one.
+
+    panels (k,) are numbers.
     """
     mesh = adjoint.model.mesh
     gradient = np.zeros((len(panels), int(mesh.panel.max()) + 1))

@@ -46,6 +46,8 @@ def make_design_report(
     """Put the last analysis, the panels, the history and the settings together.
 
     `grouped` are the contents of classes.json, `panel_class` (P,) the class of each panel.
+
+    Classes are numbers.
     """
     last = iterations.analyses[-1]
     verdict = {

@@ -18,7 +18,7 @@ class PanelGrid:
 
     @property
     def panel(self) -> IntArray:
-        """Panel ids 0, 1, 2, ..."""
+        """Panel ids (P,): 0, 1, 2, ..."""
         return np.arange(self.zigzag_index.size)
 
 

@@ -39,7 +39,10 @@ def make_mesh(
     comments: str = "",
     notes: tuple[str, ...] = (),
 ) -> Mesh:
-    """Build a mesh from polygons that have `sizes` (P,) corners each, one after the other."""
+    """Build a mesh from polygons that have `sizes` (P,) corners each, one after the other.
+
+    Coordinates in the file's unit.
+    """
     starts = np.concatenate([[0], np.cumsum(np.asarray(sizes, dtype=np.int64))])
     points = np.asarray(vertices, dtype=float).reshape(-1, 3)
     return Mesh(points, starts, np.asarray(corners, dtype=np.int64), single, comments, notes)

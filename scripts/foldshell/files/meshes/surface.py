@@ -200,7 +200,10 @@ def _check_cover(found: Triangles, middle: np.ndarray, span: float) -> None:
 
 
 def find_covered(corners: np.ndarray, along: np.ndarray) -> np.ndarray:
-    """Which points (N * N,) of the square grid `along` (N,) lie in triangles (F, 3, 2) in plan."""
+    """Which points (N * N,) of the square grid `along` (N,) lie in triangles (F, 3, 2) in plan.
+
+    Coordinates in one unit of length.
+    """
     size, spacing = len(along), along[1] - along[0]
     scaled = (corners - along[0]) / spacing
     low = np.clip(np.ceil(scaled.min(axis=1) - 1e-9), 0, size).astype(int)
@@ -223,7 +226,10 @@ def find_covered(corners: np.ndarray, along: np.ndarray) -> np.ndarray:
 
 
 def measure_gaps(points: np.ndarray, edges: np.ndarray) -> np.ndarray:
-    """Distance (N,) of points (N, 2) in plan to the nearest of edges (E, 2, 2)."""
+    """Distance (N,) of points (N, 2) in plan to the nearest of edges (E, 2, 2).
+
+    Coordinates in one unit of length.
+    """
     start, along = edges[:, 0], edges[:, 1] - edges[:, 0]
     squared = np.maximum((along**2).sum(axis=1), 1e-300)
     gaps = np.empty(len(points))

@@ -44,7 +44,10 @@ def make_triangles(mesh: Mesh) -> Triangles:
 
 
 def measure_double_areas(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """|e1 x e2|: twice the areas (F,) of triangles (F, 3)."""
+    """|e1 x e2|: twice the areas (F,) of triangles (F, 3).
+
+    Coordinates in one unit of length, areas in its square.
+    """
     corners = vertices[triangles]
     one, two = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
     return np.linalg.norm(np.cross(one, two), axis=1)
@@ -107,7 +110,10 @@ def _split_quads(vertices: np.ndarray, quads: np.ndarray) -> np.ndarray:
 
 
 def cut_ears(vertices: np.ndarray, polygon: np.ndarray) -> np.ndarray:
-    """Triangles (k - 2, 3) of one polygon (k,): ears cut off in its mean plane, the best first."""
+    """Triangles (k - 2, 3) of one polygon (k,): ears cut off in its mean plane, the best first.
+
+    Coordinates in one unit of length; corners as numbers.
+    """
     points = vertices[polygon] - vertices[polygon].mean(axis=0)
     normal = np.cross(points, np.roll(points, -1, axis=0)).sum(axis=0)
     axis = int(np.abs(normal).argmax())
