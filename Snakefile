@@ -8,7 +8,8 @@ import os
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(workflow.current_basedir) / "scripts"))
+HOME = Path(str(workflow.current_basedir)).resolve()
+sys.path.insert(0, str(HOME / "scripts"))
 
 from foldshell.settings.config_file import read_config
 from foldshell.engine.environment import ONE_THREAD, prepare_environment

@@ -72,7 +72,7 @@ rule report:
     input:
         report_files,
         library=code_inputs("report"),
-        stylesheet=f"{SCRIPTS}/foldshell/report/report.css",
+        stylesheet=f"{PAGES}/report.css",
     output:
         report=f"{RESULTS}/report.html",
     log:
