@@ -14,7 +14,7 @@ DESIGNS = f"""\
 design\tsurface\tspan_m\theight_m\tzigzag\tstrip\tsupport\ttags
 first-dome\tparaboloid\t8\t2\t9\t8\tall\t{TAG}
 """
-SNAKEFILE = '''\
+SNAKEFILE = """\
 # The workflow of foldshell; designs and settings of this study are in config/.
 {imports}
 
@@ -24,7 +24,7 @@ include: {place}
 rule study:
     input:
         rules.all.input,
-'''
+"""
 README = """\
 # A study of folded shells
 
