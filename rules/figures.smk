@@ -37,6 +37,7 @@ rule all_designs:
         library=code_inputs("all_designs"),
     output:
         **{name: figure(name) for name in SHEETS},
+        tiles=f"{RESULTS}/figures/tiles.json",
     log:
         study_log("all_designs"),
     conda:

@@ -17,7 +17,7 @@ rule manifest:
         "../envs/foldshell.yaml"
     params:
         deciding_rules=DECIDING,
-        code=str(HOME),
+        code=str(workflow.basedir),
     message:
         "{wildcards.design}: manifest"
     script:

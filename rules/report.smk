@@ -1,4 +1,4 @@
-# The report: Snakemake's own, of pages and figures that are flagged with `report(...)`.
+# The report of the study: ours, and Snakemake's own of what is flagged with `report(...)`.
 
 
 report: "../docs/report/workflow.rst"
@@ -63,16 +63,16 @@ rule claims_page:
         "../scripts/claims_page.py"
 
 
-rule report_contents:
-    input:
-        report_files,
-
-
 rule report:
     input:
-        report_files,
+        summary=rules.summary.output.csv,
+        tiles=rules.all_designs.output.tiles,
+        verification=f"{SCRIPTS}/../tests/verification/README.md",
+        claims=judged_claims,
+        figures=charts_of_study,
+        designs=report_designs,
         library=code_inputs("report"),
-        stylesheet=f"{PAGES}/report.css",
+        assets=assets(),
     output:
         report=f"{RESULTS}/report.html",
     log:
@@ -80,10 +80,38 @@ rule report:
     conda:
         "../envs/foldshell.yaml"
     params:
+        study=SETTINGS.study,
+        results=results_folder,
+        project=workflow.basedir,
+        settings=stage_parameters(SETTINGS, "study"),
+        left_out=LEFT_OUT,
+    message:
+        "report of the study"
+    script:
+        "../scripts/report.py"
+
+
+rule report_contents:
+    input:
+        report_files,
+
+
+rule snakemake_report:
+    input:
+        report_files,
+        library=code_inputs("snakemake_report"),
+        stylesheet=f"{SCRIPTS}/foldshell/report/snakemake_report.css",
+    output:
+        report=f"{RESULTS}/snakemake_report.html",
+    log:
+        study_log("snakemake_report"),
+    conda:
+        "../envs/foldshell.yaml"
+    params:
         snakefile=main_snakefile(),
         target="report_contents",
         config=config,
     message:
-        "report"
+        "Snakemake's own report"
     script:
-        "../scripts/report.py"
+        "../scripts/snakemake_report.py"

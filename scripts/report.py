@@ -1,47 +1,56 @@
-"""Rule report: Snakemake's own report of what is done, in one HTML file."""
+"""Rule report: the report of the study, one HTML file that asks no host for anything."""
 
-import subprocess
-import sys
-import tempfile
+import os
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-import yaml
-
 from foldshell.engine.job import run_job
-from foldshell.files.errors import InputError
 from foldshell.files.whole import atomic_path
+from foldshell.report.provenance import find_provenance
+from foldshell.report.study_report import read_study, write_study_report
+from foldshell.settings.stages import settings_hash
 
 
 def main(
+    paths: Mapping[str, str | Path],
+    figures: Mapping[str, str | Path],
     report: str | Path,
-    stylesheet: str | Path,
-    snakefile: str,
-    target: str,
-    config: Mapping[str, Any],
+    *,
+    study: str,
+    results: str | Path,
+    project: str | Path,
+    settings: Mapping[str, Any],
+    left_out: Mapping[str, str],
 ) -> None:
-    """Let a second Snakemake, which runs no job, gather what is flagged below `target`.
+    """Write the report.
 
-    It works in the same folder while the first one holds the lock, and gets all settings that the
-    first one has, wherever they came from, in a file. `stylesheet` is added to Snakemake's own.
+    Parameters
+    ----------
+    paths : summary (csv), tiles (json), verification (md), and claims (json) where they are judged
+    figures : charts, PNG files by name
+    study : tag of the study
+    results : folder with one folder per design
+    project : folder of the workflow, for its commit
+    settings : plain parameters of stage `study`
+    left_out : charts that were not made, with the reason
     """
-    with atomic_path(report) as temporary, tempfile.TemporaryDirectory() as folder:
-        settings = Path(folder) / "config.yaml"
-        settings.write_text(yaml.safe_dump(dict(config)), encoding="utf-8")
-        command = [sys.executable, "-m", "snakemake", "--nolock", "--cores", "1", "-s", snakefile]
-        command += ["--report", str(temporary), target, "--configfile", str(settings)]
-        command += ["--report-stylesheet", str(stylesheet)]
-        done = subprocess.run(command, capture_output=True, text=True, check=False)
-        if done.returncode or not temporary.stat().st_size:
-            last = (done.stderr.strip().splitlines() or ["no message"])[-1]
-            raise InputError(f"{report}: snakemake --report: {last}: it must end without an error")
+    text = Path(paths["verification"]).read_text(encoding="utf-8")
+    files = read_study(
+        study, paths["summary"], results, paths["tiles"], figures, paths.get("claims"), text
+    )
+    way = Path(os.path.relpath(results, Path(report).parent)).as_posix()
+    digest = settings_hash(settings)
+    page = write_study_report(files, settings, digest, find_provenance(project), way, left_out)
+    with atomic_path(report) as temporary:
+        temporary.write_text(page, encoding="utf-8")
 
 
 if "snakemake" in globals():
     with run_job(snakemake):  # noqa: F821
         main(
+            {name: path for name, path in snakemake.input.items() if path},  # noqa: F821
+            {Path(path).stem: path for path in snakemake.input.figures},  # noqa: F821
             snakemake.output.report,  # noqa: F821
-            snakemake.input.stylesheet,  # noqa: F821
             **snakemake.params,  # noqa: F821
         )

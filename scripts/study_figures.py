@@ -7,7 +7,8 @@ from typing import Any
 from foldshell.engine.job import run_job
 from foldshell.figures.charts import draw_axes_comparison, draw_comparison, save_figure
 from foldshell.figures.planarity_chart import draw_planarity_chart
-from foldshell.figures.study_data import COMPARISONS, add_fields, read_states
+from foldshell.figures.study_data import add_fields, read_states
+from foldshell.results.comparisons import COMPARISONS
 from foldshell.results.design_view import read_limits
 
 OTHERS = {"axes": draw_axes_comparison, "planarity_utilization": draw_planarity_chart}

@@ -1,53 +1,188 @@
-"""Rule report: Snakemake's report by a second Snakemake, or one sentence on why there is none."""
+"""Rule report: one page for the study, whatever its results hold."""
 
+import csv
+import json
+import re
+import shutil
 import subprocess
-import sys
 
 import pytest
+from PIL import Image
 
 import report
-from foldshell.files.errors import InputError
+from foldshell.files.whole import write_json
+from foldshell.report import study_report
+from foldshell.report.checks import Check, find_governing, find_ratio
 
-pytestmark = pytest.mark.workflow
-SNAKEFILE = """
-rule all:
-    input: "page.html"
-rule page:
-    output: report("page.html", category="pages")
-    params: word=config.get("word", "none")
-    shell: "echo '<p>{params.word}</p>' > {output}"
-"""
-
-
-STYLE = "#rulegraph { overflow: auto; }"
-
-
-@pytest.fixture
-def workflow(tmp_path, monkeypatch):
-    """Return a Snakefile of one rule, in the current folder."""
-    monkeypatch.chdir(tmp_path)
-    path = tmp_path / "Snakefile"
-    path.write_text(SNAKEFILE)
-    (tmp_path / "report.css").write_text(STYLE)
-    return str(path)
+CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("chrome")
+EVIL = "</script><img src=x onerror=\"document.title='owned'\">"
+ROW = {"design": "a", "tags": "supports,mine", "pattern": "miura", "surface": "arch",
+       "span_m": "28.0", "height_m": "10.0", "zigzag": "15", "strip": "16", "support": "all",
+       "fold_mode": "elastic", "state": "converged", "iterations": "15", "volume_m3": "63.5",
+       "volume_per_area_m": "0.043", "utilization_mean": "0.41",
+       "displacement_vertical_max_m": "0.0547", "buckling_factor_min": "10.1",
+       "mesh_error": "0.0157", "crosscheck": "pass", "settings_hash": "12a1bc63e94b",
+       "reason": "all criteria are met"}  # fmt: skip
+SETTINGS = {
+    "material": {"name": "C25/30", "youngs_modulus": 31e6, "poissons_ratio": 0.2,
+                 "unit_weight": 25.0, "strength": 16.7e3, "criterion": "von_mises"},
+    "loads": {"superimposed_dead": 0.5, "live": 1.0, "wind": 1.7, "wind_fraction": 0.5,
+              "area_basis": "mesh"},
+    "combinations": {"strength": {"S1": {"SW": 1.4}}, "deflection": {"D1": {"SW": 1.0}}},
+}  # fmt: skip
 
 
-def test_report_shows_what_is_flagged(workflow, tmp_path):
-    """The page made with a setting of the command line is in the report, which asks no host."""
-    command = [sys.executable, "-m", "snakemake", "--cores", "1", "--config", "word=hello"]
-    subprocess.run(command, check=True, capture_output=True)
-    report.main(
-        tmp_path / "report.html", tmp_path / "report.css", workflow, "all", {"word": "hello"}
+def final_of(**changed):
+    """Return a plain final.json."""
+    limit = {"value": 0.0547, "limit": 0.11667, "met": True}
+    used = {"value": 0.81, "limit": 1.0, "met": True}
+    return {
+        "iteration": 14, "state": "ok", "volume_m3": 63.5, "area_m2": 1475.0,
+        "buckling_factor": {"S1": 10.1, "D1": None}, "second_order_iterations": 4,
+        "second_order_residual": 1e-8, "dofs": 19027, "mesh_subdivisions": 4, "element_order": 5,
+        "verdict": "converged", "reason": "all criteria are met", "stationary_iterations": 1,
+        "criteria": {"utilization_max": used, "displacement_vertical_m": limit},
+        "displacement_combination": "D1", "displacement_place_m": [1.0, 2.0, 3.0],
+        "edited": False,
+    } | changed  # fmt: skip
+
+
+def write_results(folder, designs=("a", "b"), **changed):
+    """Write a study's files; return the arguments of the script's main."""
+    rows = [ROW | {"design": name} | changed for name in designs]
+    rows[-1] |= {"state": "unstable", "buckling_factor_min": "", "surface": "hypar"}
+    with (folder / "summary.csv").open("w", newline="") as stream:
+        writer = csv.DictWriter(stream, ROW)
+        writer.writeheader()
+        writer.writerows(rows)
+    quantity = {"primary": 1.0, "independent": 1.01, "relative_difference": 0.01,
+                "tolerance": 0.04, "pass": True, "unit": "m"}  # fmt: skip
+    for name in designs:
+        home = folder / name
+        write_json(home / "sizing/final.json", final_of())
+        write_json(home / "crosscheck/comparison.json", {
+            "design": name, "pass": True, "not_compared": [], "not_settled": [],
+            "quantities": {"D1 displacement_max_m": quantity}, "solver": "scipy",
+            "primary_subdivisions": [4, 12], "independent_subdivisions": [1, 2]})  # fmt: skip
+        write_json(home / "mesh_convergence.json", {
+            "mesh_error": 0.0157, "buckling_mesh_error": None, "subdivisions": 4,
+            "errors": {"D1": {"displacement_max_m": 0.0157}},
+            "study": {"subdivisions": [4, 12], "reference": {"order": 7}, "combinations": {}},
+        })  # fmt: skip
+    scale = {"low": 0.0, "high": 1.0, "limit": None, "colours": "00518a" * 4,
+             "ticks": [[0.0, "0"], [1.0, "1"]]}  # fmt: skip
+    tile = {"words": "thickness [mm]", "scale": scale,
+            "pictures": dict.fromkeys(designs, "data:image/webp;base64,AA==")}  # fmt: skip
+    write_json(folder / "tiles.json", {"thickness": tile})
+    Image.new("RGB", (1600, 900), "teal").save(folder / "supports.png")
+    (folder / "chapter.md").write_text(
+        "# Chapter\n\n| problem | value |\n|---|---|\n| plate | 4 |\n"
     )
-    text = (tmp_path / "report.html").read_text()
-    assert '"page.html": {"name": "page.html"' in text
-    assert STYLE in text
-    assert 'src="http' not in text
-    assert sorted(path.name for path in tmp_path.glob("*.html")) == ["page.html", "report.html"]
+    return {
+        "paths": {"summary": folder / "summary.csv", "tiles": folder / "tiles.json",
+                  "verification": folder / "chapter.md"},
+        "figures": {"supports": folder / "supports.png"}, "report": folder / "report.html",
+        "study": "mine", "results": folder, "project": folder, "settings": SETTINGS,
+        "left_out": {"curvature": "no two designs"},
+    }  # fmt: skip
 
 
-def test_missing_results_are_one_sentence(workflow, tmp_path):
-    """Nothing has been run: no report is left behind."""
-    with pytest.raises(InputError, match=r"report\.html: snakemake --report: .+"):
-        report.main(tmp_path / "report.html", tmp_path / "report.css", workflow, "all", {})
-    assert not list(tmp_path.glob("*.html"))
+def run(folder, **changed):
+    """Write files and report; return the report's text."""
+    arguments = write_results(folder, **changed)
+    report.main(**arguments)
+    return arguments["report"].read_text(encoding="utf-8")
+
+
+def test_report_says_all_without_its_neighbours(tmp_path):
+    """Counts, worst checks, every design with its governing check, table in mm, cross-check, loads,
+    what was not drawn, how to make the claims."""
+    text = run(tmp_path)
+    for words in ("1 converged", "1 unstable", "2 pass", "vertical displacement, down [mm]",
+                  "0.81, limit 1 (81 % of its limit)", "54.7", "combination D1 at x 1.0",
+                  "Not drawn: curvature, no two designs.", "snakemake --cores 2 claims",
+                  "<td>plate</td>", "1.7 x 0.5", "unit weight", "displacement [%]"):  # fmt: skip
+        assert words in text, words
+    assert text.count('<article class="card"') == 2
+    assert 'href="./a/page.html"' in text
+
+
+def test_policy_lets_its_own_script_run_and_no_other(tmp_path):
+    """A hash in place of unsafe-inline; no address of a host."""
+    text = run(tmp_path)
+    policy = re.search(r'Content-Security-Policy" content="([^"]*)"', text)[1]
+    assert re.search(r"script-src 'sha256-[\w+/=]{44}'", policy)
+    assert policy.startswith("default-src 'none'")
+    assert not re.search(r"https?://", text.replace("http://www.w3.org/2000/svg", ""))
+
+
+def test_hostile_cells_stay_texts(tmp_path):
+    """Markup in the texts of summary.csv is shown, not run."""
+    text = run(tmp_path, reason=EVIL, surface=EVIL, tags=EVIL)
+    assert "<img src=x" not in text
+    assert text.count("<script") == text.count("</script>") == 2
+    data = re.search(r'id="study-data">(.*?)</script>', text, re.S)[1]
+    assert json.loads(data)["designs"][0]["values"]["reason"] == EVIL.replace("_", " ")
+
+
+def test_claims_and_engineering_checks_are_shown_where_they_are(tmp_path):
+    """A judged claim has its verdict; a check of engineering.json can govern."""
+    arguments = write_results(tmp_path)
+    claim = {"id": "C1", "claim": "stiffer on all edges", "verdict": "holds", "designs": ["a"],
+             "numbers": {}, "uncertainty": {"largest_relative": {}, "method": "meshes"},
+             "notes": ["a note"]}  # fmt: skip
+    write_json(tmp_path / "claims.json", [claim])
+    arguments["paths"]["claims"] = tmp_path / "claims.json"
+    check = {"value": 120.0, "limit": 100.0, "unit": "kN/m", "met": False,
+             "governing_combination": "S1", "panel": 7}  # fmt: skip
+    write_json(tmp_path / "a/checks/engineering.json", {"checks": {"steel": check}})
+    report.main(**arguments)
+    text = arguments["report"].read_text(encoding="utf-8")
+    for words in ("C1: stiffer on all edges", "a note", "steel [kN/m]: 120, limit 100 (120 % of",
+                  "combination S1, panel 7"):  # fmt: skip
+        assert words in text, words
+
+
+def test_too_large_a_report_is_refused(tmp_path, monkeypatch):
+    """Nothing is left behind."""
+    monkeypatch.setattr(study_report, "SIZE_MAX", 1000)
+    with pytest.raises(ValueError, match="1000 at most"):
+        run(tmp_path)
+    assert not (tmp_path / "report.html").exists()
+
+
+@pytest.mark.parametrize(
+    ("value", "limit", "met", "ratio"),
+    [(0.8, 1.0, True, 0.8), (1.2, 1.0, False, 1.2), (10.0, 1.5, True, 0.15),
+     (1.2, 1.5, False, 1.25), (None, 1.0, None, None), (-3.0, 4.0, True, 0.75)],
+)  # fmt: skip
+def test_ratio_knows_on_which_side_of_the_limit_it_is_good(value, limit, met, ratio):
+    """1 at the limit, above it only where the check fails, for largest and least values alike."""
+    assert find_ratio(value, limit, met) == (None if ratio is None else pytest.approx(ratio))
+
+
+def test_the_governing_check_uses_most_of_its_limit():
+    """Checks without a number do not govern."""
+    checks = [
+        Check("a", 1, 2, 0.5, True),
+        Check("b", 9, 10, 0.9, True),
+        Check("c", 1, 1, None, None),
+    ]
+    assert find_governing(checks).name == "b"
+    assert find_governing(checks[2:]) is None
+
+
+@pytest.mark.slow
+@pytest.mark.skipif(CHROMIUM is None, reason="no Chromium")
+def test_report_in_a_browser(tmp_path):
+    """Its script runs under its own policy and draws both charts; nothing hostile does anything."""
+    run(tmp_path, reason=EVIL)
+    command = [
+        CHROMIUM, "--headless", "--no-sandbox", "--virtual-time-budget=5000", "--dump-dom",
+        f"--user-data-dir={tmp_path / 'browser'}", (tmp_path / "report.html").as_uri(),
+    ]  # fmt: skip
+    done = subprocess.run(command, capture_output=True, text=True, timeout=180, check=True)
+    assert 'class="scripted"' in done.stdout
+    assert "2 of 2 shown" in done.stdout
+    assert done.stdout.count("<polyline") == 4
+    assert "<title>Folded shells: study mine</title>" in done.stdout

@@ -1,6 +1,7 @@
 """Rules study_figures: charts, and all_designs: pages, from result folders."""
 
 import csv
+import json
 
 import numpy as np
 from PIL import Image
@@ -42,7 +43,13 @@ def test_all_figures_are_written(tmp_path):
     charts = {n: [tmp_path / f"{n}.png", tmp_path / f"{n}.svg"] for n in study_figures.CHARTS}
     sheets = {name: tmp_path / f"{name}.png" for name in ("all_thickness", "all_utilization")}
     study_figures.main(tmp_path / "summary.csv", tmp_path, charts, settings=SETTINGS)
-    all_designs.main(tmp_path / "summary.csv", tmp_path, sheets, settings=SETTINGS)
+    tiles = tmp_path / "tiles.json"
+    all_designs.main(tmp_path / "summary.csv", tmp_path, sheets, tiles, settings=SETTINGS)
+    found = json.loads(tiles.read_text())
+    assert {name: list(sheet["pictures"]) for name, sheet in found.items()} == {
+        "thickness": ["all", "strip"], "utilization": ["all", "strip"]
+    }  # fmt: skip
+    assert found["utilization"]["scale"]["limit"] == 1.0
     for paths in charts.values():
         assert all(path.stat().st_size > 1000 for path in paths)
     page = np.asarray(Image.open(sheets["all_thickness"]))

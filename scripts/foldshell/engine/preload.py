@@ -6,7 +6,8 @@ MODULES = [
     "foldshell.shell.warm_up", "cvxopt.amd", "group", "size", "neutral_model",
     "mesh_convergence", "compare", "crosscheck.verdict", "crosscheck.workbook", "draw",
     "meshio", "page", "vtkmodules.vtkRenderingOpenGL2", "vtkmodules.util.numpy_support",
-    "ezdxf", "sensitivity", "flat_equal", "summary", "timings", "report_pages", "all_designs",
+    "ezdxf", "sensitivity", "flat_equal", "summary", "timings", "report_pages", "report",
+    "all_designs",
     "study_figures", "manifest",
     "matplotlib.backends.backend_agg", "matplotlib.backends.backend_svg",
 ]

@@ -11,15 +11,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from foldshell.figures.study_data import (
-    UTILIZATION_BIN,
-    UTILIZATION_END,
-    Comparison,
-    StudyDesign,
-    pair_supports,
-    sort_into_columns,
-)
+from foldshell.figures.study_data import UTILIZATION_BIN, UTILIZATION_END, StudyDesign
 from foldshell.files.whole import atomic_path
+from foldshell.results.comparisons import Comparison, pair_supports, sort_into_columns
 
 COLOURS = ("#0072B2", "#E69F00", "#009E73", "#CC79A7", "#000000")
 STYLES = ("-", "--", "-.", ":", (0, (5, 1, 1, 1, 1, 1)))

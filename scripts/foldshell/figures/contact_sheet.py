@@ -1,7 +1,10 @@
 """Small multiples: all designs of a study on one page, seen alike and on one colour scale."""
 
-from collections.abc import Sequence
+import base64
+import io
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from typing import Any
 
 import numpy as np
 from PIL import Image, ImageDraw
@@ -18,6 +21,8 @@ TILE = (400, 270)
 WORDS = 58
 HEAD = 90
 FOOT = 130
+COLOURS = 16
+"""Steps of the legend of small pictures."""
 USUAL_PERCENTILE = 99.0
 """The colour scale of thickness ends here, so that one thick panel does not bleach all others."""
 
@@ -45,8 +50,16 @@ def make_tile(view: DesignView) -> Tile:
     return Tile(state.name, verdict, scene, thickness, state.utilization)
 
 
-def draw_sheets(tiles: Sequence[Tile], limit: float, columns: int = 6) -> dict[str, Image.Image]:
-    """Return the pages `thickness` and `utilization` of all tiles."""
+@dataclass(frozen=True)
+class Sheet:
+    """All designs coloured by one quantity: its caption and a view of each, (h, w, 3) uint8."""
+
+    caption: Caption
+    views: Mapping[str, np.ndarray]
+
+
+def render_sheets(tiles: Sequence[Tile], limit: float) -> dict[str, Sheet]:
+    """Return the sheets `thickness` and `utilization`, each on one scale for all tiles."""
     thickness = np.concatenate([tile.thickness for tile in tiles])
     usual = np.percentile(thickness, USUAL_PERCENTILE)
     scales = {
@@ -58,14 +71,38 @@ def draw_sheets(tiles: Sequence[Tile], limit: float, columns: int = 6) -> dict[s
         "utilization": "utilization [-], largest of the strength combinations",
     }
     cameras = [fit_camera(_corners(tile.scene), TILE[0] / TILE[1]) for tile in tiles]
-    pages = {}
+    sheets = {}
     for name, scale in scales.items():
         scenes = [_colour(tile, getattr(tile, name), scale) for tile in tiles]
         views = render_scenes(scenes, cameras, TILE)
         above = "above" if scale.limit is not None else ""
         caption = Caption(f"All designs: {name}", (), words[name], scale, above)
-        pages[name] = lay_out(tiles, views, caption, columns)
-    return pages
+        sheets[name] = Sheet(caption, dict(zip((t.name for t in tiles), views, strict=True)))
+    return sheets
+
+
+def draw_sheet(tiles: Sequence[Tile], sheet: Sheet, columns: int = 6) -> Image.Image:
+    """Return a sheet as one page."""
+    return lay_out(tiles, list(sheet.views.values()), sheet.caption, columns)
+
+
+def pack_sheets(sheets: Mapping[str, Sheet]) -> dict[str, Any]:
+    """Return words, scale and a small picture of each design (data URI), for the report."""
+    return {
+        name: {
+            "words": sheet.caption.quantity,
+            "scale": sheet.caption.scale.describe(COLOURS),
+            "pictures": {design: encode_picture(view) for design, view in sheet.views.items()},
+        }
+        for name, sheet in sheets.items()
+    }
+
+
+def encode_picture(view: np.ndarray) -> str:
+    """Return an image (h, w, 3) uint8 as a data URI."""
+    stream = io.BytesIO()
+    Image.fromarray(view).save(stream, format="WEBP", quality=70, method=2)
+    return "data:image/webp;base64," + base64.b64encode(stream.getvalue()).decode("ascii")
 
 
 def _corners(scene: Scene) -> np.ndarray:

@@ -8,7 +8,8 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from foldshell.figures.charts import LIMIT_COLOUR, STYLE, draw_words
-from foldshell.figures.study_data import SURFACES, StudyDesign
+from foldshell.figures.study_data import StudyDesign
+from foldshell.results.comparisons import UNFOLDED, choose_panel_surfaces
 from foldshell.results.correlation import rank_correlation
 
 BINS = 10
@@ -23,9 +24,9 @@ def draw_planarity_chart(designs: Sequence[StudyDesign]) -> Figure:
     between designs do not disturb.
     """
     groups = {}
-    for surface in SURFACES:
+    for surface in choose_panel_surfaces(designs):
         panels = [d.panels for d in designs
-                  if d.surface == surface and d.pattern not in ("smooth", "flat")
+                  if d.surface == surface and d.pattern not in UNFOLDED
                   and d.panels is not None]  # fmt: skip
         if panels:
             groups[surface] = panels

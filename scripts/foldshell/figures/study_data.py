@@ -1,7 +1,7 @@
-"""What the study's figures compare: rows of summary.csv, sorted into groups and series."""
+"""What the study's figures draw: rows of summary.csv, with fields of the final states."""
 
 import csv
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
@@ -15,8 +15,6 @@ from foldshell.settings.stages import FINAL_STATE
 
 NUMBERS = ("span_m", "height_m", "zigzag", "strip", "volume_per_area_m", "utilization_mean",
            "displacement_vertical_max_m")  # fmt: skip
-SURFACES = ("paraboloid", "hypar", "arch")
-SUPPORTS = ("all", "zigzag", "strip")
 UTILIZATION_BIN = 0.1
 UTILIZATION_END = 2.0
 
@@ -46,46 +44,6 @@ class StudyDesign:
     def density(self) -> str:
         """Polylines as `15x16`."""
         return f"{self.number['zigzag']:g}x{self.number['strip']:g}"
-
-
-@dataclass(frozen=True)
-class Comparison:
-    """Which designs a figure compares: a column of charts a value of `column`, a line or bar a
-    value of `series`."""
-
-    title: str
-    tag: str
-    column: Callable[[StudyDesign], str]
-    series: Callable[[StudyDesign], str]
-    chosen: Callable[[StudyDesign], bool] = lambda design: True
-
-
-COMPARISONS: dict[str, Comparison] = {
-    "supports": Comparison("Supported edges", "supports", lambda d: d.surface, lambda d: d.support),
-    "surface": Comparison(
-        "Surfaces", "supports", lambda d: f"{d.support} edges supported", lambda d: d.surface
-    ),
-    "curvature": Comparison(
-        "Span / height [m]",
-        "curvature",
-        lambda d: f"{d.surface}, {d.support} edges supported",
-        lambda d: d.span_height,
-    ),
-    "density_zigzag": Comparison(
-        "Zig-zags x strips, zig-zag edges supported",
-        "density",
-        lambda d: d.surface,
-        lambda d: d.density,
-        lambda d: d.support == "zigzag",
-    ),
-    "density_strip": Comparison(
-        "Zig-zags x strips, strip edges supported",
-        "density",
-        lambda d: d.surface,
-        lambda d: d.density,
-        lambda d: d.support == "strip",
-    ),
-}
 
 
 def read_summary(path: str | Path) -> list[StudyDesign]:
@@ -153,37 +111,3 @@ def utilization_shares(values: np.ndarray, area: np.ndarray) -> np.ndarray:
     edges = utilization_edges()
     number = np.searchsorted(edges, values, side="right") - 1
     return np.bincount(number, area, len(edges) - 1) / area.sum()
-
-
-def sort_into_columns(
-    designs: Iterable[StudyDesign], comparison: Comparison
-) -> dict[str, dict[str, StudyDesign]]:
-    """Return {column: {series: design}} of the designs of a comparison.
-
-    Surfaces and supports keep the order of the paper, other series that of the summary.
-    """
-    chosen = [d for d in designs if comparison.tag in d.tags and comparison.chosen(d)]
-    chosen.sort(key=lambda d: (_place(d.surface, SURFACES), _place(d.support, SUPPORTS)))
-    columns: dict[str, dict[str, StudyDesign]] = {}
-    for design in chosen:
-        columns.setdefault(comparison.column(design), {})[comparison.series(design)] = design
-    return columns
-
-
-def pair_supports(designs: Sequence[StudyDesign]) -> list[tuple[StudyDesign, StudyDesign]]:
-    """Return pairs that differ only in being supported on zig-zag or on strip edges (Fig. 8)."""
-    key = {
-        (d.pattern, d.surface, d.span_height, d.density, d.support): d
-        for d in designs
-        if "density" in d.tags
-    }
-    pairs = [
-        (design, key[(*rest, "strip")])
-        for (*rest, support), design in key.items()
-        if support == "zigzag" and (*rest, "strip") in key
-    ]
-    return sorted(pairs, key=lambda pair: _place(pair[0].surface, SURFACES))
-
-
-def _place(value: str, order: Sequence[str]) -> int:
-    return order.index(value) if value in order else len(order)

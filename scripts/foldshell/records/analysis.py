@@ -114,7 +114,7 @@ class AnalysisRecord(ShellState):
     reason: str = entry("why, in words")
     criteria: dict[str, Criterion] = entry("each criterion of the stop rule by its name")
     stationary_iterations: int = entry("iterations in a row with a small change of volume", COUNT)
-    seconds: float = entry("wall time of the analysis", "s")
+    seconds: float | None = entry("wall time of the analysis", "s", left_out=True)
     edited: bool = entry("whether a person had changed the workbook that was read", default=False)
     workbook_sha256: str | None = entry("SHA-256 of the workbook that was read", left_out=True)
 

@@ -34,4 +34,4 @@ class ClassesRecord(ShellState):
     added_volume_relative: float = entry(
         "volume over that before grouping, less 1", "-", form="change"
     )
-    seconds: float = entry("wall time of the last analysis", "s")
+    seconds: float | None = entry("wall time of the last analysis", "s", left_out=True)

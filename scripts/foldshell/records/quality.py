@@ -82,4 +82,4 @@ class QualityRecord(QualityMeasures):
         "m", "closure when folded again", left_out=True,
     )  # fmt: skip
     iterations: int = entry("iterations of the solver", COUNT)
-    seconds: float = entry("wall time of the folding", "s")
+    seconds: float | None = entry("wall time of the folding", "s", left_out=True)

@@ -1,6 +1,8 @@
 """Values as the pages' templates take them, and the templates filled in: all text is escaped."""
 
+import base64
 import functools
+import hashlib
 import math
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
@@ -71,7 +73,7 @@ def templates() -> Environment:
     )  # fmt: skip
     environment.policies["json.dumps_kwargs"] = JSON_OPTIONS
     environment.filters["number"] = format_number
-    environment.globals["asset"] = read_asset
+    environment.globals |= {"join_assets": join_assets, "fingerprint": fingerprint}
     return environment
 
 
@@ -80,6 +82,11 @@ def render(name: str, **values: Any) -> Markup:
     return Markup(templates().get_template(name).render(values))
 
 
-def read_asset(name: str) -> Markup:
-    """Return a style sheet or script of this folder: the project's own text, not escaped."""
-    return Markup((FOLDER / name).read_text(encoding="utf-8"))
+def join_assets(names: Sequence[str]) -> Markup:
+    """Return style sheets or scripts of this folder as one: the project's own, not escaped."""
+    return Markup("".join((FOLDER / name).read_text(encoding="utf-8") for name in names))
+
+
+def fingerprint(script: str) -> str:
+    """Return what a page's policy calls the one script that it lets run."""
+    return "sha256-" + base64.b64encode(hashlib.sha256(script.encode()).digest()).decode("ascii")

@@ -12,7 +12,6 @@ from foldshell.report.markup import render
 from foldshell.report.sections import DesignFiles, describe_design, make_sections
 from foldshell.report.viewer_data import ViewerData
 
-SCRIPTS = ("data.js", "renderer.js", "camera.js", "viewer.js")
 SIZE_MAX = 1_400_000
 """Bytes: a browser shows larger pages blank inside Snakemake's report (2 MB as a data URI)."""
 PICTURE_WIDTH, STILL_WIDTH = 530, 800
@@ -54,7 +53,6 @@ def write_design_page(
         "links": FILES | _link_pictures(pictures),
         "facts": viewer.facts | {"arrays": headers},
         "packed": packed,
-        "scripts": SCRIPTS,
     }
     still = next((name for name in STILLS if name in pictures), None)
     values["still"] = still and show_picture(still, pictures[still], STILL_WIDTH)

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 from foldshell.report.markdown import render_markdown
-from foldshell.report.markup import Cell, make_table, render
+from foldshell.report.markup import Cell, Table, make_table, render
 from foldshell.workbook.styles import GOOD_VERDICTS
 
 JUDGED = ("state", "crosscheck")
@@ -82,15 +82,20 @@ def write_settings_page(
     settings: Mapping[str, Any], settings_hash: str, versions: Mapping[str, str]
 ) -> str:
     """Return the page of the settings by group, and of the versions they were used with."""
-    header = ("setting", "value")
-    groups = [
-        (name, make_table(header, [(".".join(path), _plain(v)) for path, v in _flatten(values)]))
-        for name, values in settings.items()
-    ]
+    groups = list_settings(settings)
     groups.append(("Versions", make_table(("program", "version"), sorted(versions.items()))))
     return render(
         "settings.html", title="Settings and versions", digest=settings_hash, groups=groups
     )
+
+
+def list_settings(settings: Mapping[str, Any]) -> list[tuple[str, Table]]:
+    """Return the settings of each group by their dotted names."""
+    header = ("setting", "value")
+    return [
+        (name, make_table(header, [(".".join(path), _plain(v)) for path, v in _flatten(values)]))
+        for name, values in settings.items()
+    ]
 
 
 def _flatten(values: Any, path: tuple[str, ...] = ()) -> Sequence[tuple[tuple[str, ...], Any]]:

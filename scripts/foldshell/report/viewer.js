@@ -89,7 +89,7 @@ class App {
     byId("shape").onchange = () => this.setShape();
     byId("deform").oninput = () => this.draw();
     byId("creases").onchange = () => this.draw();
-    byId("home").onclick = () => { this.camera.reset(); this.draw(); };
+    byId("home").onclick = () => { this.camera.reset(); this.rotate(0, 0); };
     const canvas = this.canvas, camera = this.camera, fingers = new Map();
     let travelled = 0;
     canvas.onpointerdown = (e) => {
@@ -135,13 +135,29 @@ class App {
   }
 
   rotate(turn, rise) {
-    this.camera.turn += turn;
-    this.camera.rise = Math.max(-1.5, Math.min(1.57, this.camera.rise + rise));
+    const camera = this.camera;
+    this.look(camera.turn + turn, camera.rise + rise, camera.zoom, true);
   }
 
   zoom(by) {
-    this.camera.zoom = Math.max(0.3, Math.min(30, this.camera.zoom * by));
+    const camera = this.camera;
+    this.look(camera.turn, camera.rise, camera.zoom * by, true);
+  }
+
+  look(turn, rise, zoom, tell) { // tells the page that holds this one as a frame
+    Object.assign(this.camera, { turn, rise: Math.max(-1.5, Math.min(1.57, rise)),
+      zoom: Math.max(0.3, Math.min(30, zoom)) });
+    if (tell && parent !== window) parent.postMessage({ kind: "camera", turn, rise, zoom }, "*");
     this.draw();
+  }
+
+  listenToParent() {
+    window.addEventListener("message", ({ source, data }) => {
+      if (source !== parent || data === null || data.kind !== "camera") return;
+      const { turn, rise, zoom } = data;
+      if ([turn, rise, zoom].every(Number.isFinite)) this.look(turn, rise, zoom, false);
+    });
+    parent.postMessage({ kind: "ready" }, "*");
   }
 
   pan(dx, dy) {
@@ -190,10 +206,12 @@ function drawAxes({ right, up }) {
 async function start() {
   if (location.protocol === "data:" || location.protocol === "about:")
     document.body.classList.add("embedded"); // links to files beside the page lead nowhere
+  const wanted = new URLSearchParams(location.hash.slice(1));
+  document.body.classList.toggle("embed", wanted.has("embed")); // as a frame: the view alone
   try {
     const app = new App(await readArrays());
     byId("stage").classList.add("ready");
-    const wanted = new URLSearchParams(location.hash.slice(1));
+    if (parent !== window) app.listenToParent();
     const number = facts.fields.findIndex((f) => f.name === wanted.get("field"));
     if (number >= 0) { byId("field").value = number; app.setField(); }
     if (wanted.has("deform")) { byId("deform").value = wanted.get("deform"); app.draw(); }

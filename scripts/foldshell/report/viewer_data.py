@@ -9,8 +9,6 @@ from foldshell.results.colour_scales import (
     RATIO_RANGE_MIN,
     ColourScale,
     exaggeration,
-    find_ticks,
-    format_tick,
     make_limit_scale,
     make_scale,
 )
@@ -49,7 +47,7 @@ def make_viewer_data(view: DesignView) -> ViewerData:
     fields, values = [], {}
     for name, (words, array, scale, options) in _fields(view, grid).items():
         values[f"field_{name}"] = array
-        fields.append({"name": name, "words": words} | _describe_scale(scale) | options)
+        fields.append({"name": name, "words": words} | scale.describe(COLOURS) | options)
     shapes = []
     for name, words, moved, factor in _shapes(view, grid):
         values[f"shape_{name}"] = moved
@@ -169,22 +167,6 @@ def _class_field(state: DesignState) -> tuple:
     scale = ColourScale(0.5, count + 0.5, "YlGnBu")
     options = {"at": "panel", "classes": names}
     return "class of thickness for fabrication", _pad(state, number), scale, options
-
-
-def _describe_scale(scale: ColourScale) -> dict[str, Any]:
-    """Return range, colours and ticks of a scale as plain data."""
-    ticks = find_ticks(scale.low, scale.high)
-    step = ticks[1] - ticks[0] if len(ticks) > 1 else scale.high - scale.low
-    colours = ColourScale(scale.low, scale.high, scale.map_name).colour(
-        np.linspace(scale.low, scale.high, COLOURS)
-    )
-    return {
-        "low": scale.low,
-        "high": scale.high,
-        "limit": scale.limit,
-        "colours": colours.tobytes().hex(),
-        "ticks": [[tick, format_tick(tick, step)] for tick in ticks],
-    }
 
 
 def _shapes(view: DesignView, grid: _Grid) -> list[tuple[str, str, np.ndarray, float]]:

@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
@@ -61,6 +62,20 @@ class ColourScale:
             colours[finite & (values > self.limit)] = ABOVE
         colours[~finite] = MISSING
         return colours
+
+    def describe(self, count: int) -> dict[str, Any]:
+        """Return range, limit, `count` colours (hexadecimal) and ticks as plain data."""
+        ticks = find_ticks(self.low, self.high)
+        step = ticks[1] - ticks[0] if len(ticks) > 1 else self.high - self.low
+        values = np.linspace(self.low, self.high, count)
+        colours = ColourScale(self.low, self.high, self.map_name).colour(values)
+        return {
+            "low": self.low,
+            "high": self.high,
+            "limit": self.limit,
+            "colours": colours.tobytes().hex(),
+            "ticks": [[tick, format_tick(tick, step)] for tick in ticks],
+        }
 
 
 @lru_cache

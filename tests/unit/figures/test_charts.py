@@ -18,16 +18,19 @@ from foldshell.figures.planarity_chart import (
     group_medians,
 )
 from foldshell.figures.study_data import (
-    COMPARISONS,
     NUMBERS,
     StudyDesign,
-    pair_supports,
     read_summary,
-    sort_into_columns,
     utilization_edges,
     utilization_shares,
 )
 from foldshell.files.errors import InputError
+from foldshell.results.comparisons import (
+    COMPARISONS,
+    explain_left_out,
+    pair_supports,
+    sort_into_columns,
+)
 from foldshell.results.correlation import rank_correlation
 
 
@@ -74,6 +77,23 @@ def test_density_is_compared_within_one_support():
     designs = [design(strip=16), design(strip=32), design(strip=32, support="zigzag")]
     columns = sort_into_columns(designs, COMPARISONS["density_strip"])
     assert {k: list(v) for k, v in columns.items()} == {"arch": ["15x16", "15x32"]}
+
+
+def test_one_bar_is_no_chart():
+    """A column with a single design is left out, and a chart of such columns is not made."""
+    designs = [design(), design("hypar"), design("hypar", height=6)]
+    assert list(sort_into_columns(designs, COMPARISONS["curvature"])) == [
+        "hypar, strip edges supported"
+    ]
+    row = {"tags": "supports", "pattern": "miura", "surface": "arch", "span_m": 28.0,
+           "height_m": 10.0, "zigzag": 15, "strip": 16}  # fmt: skip
+    rows = [row | {"support": "all"}, row | {"support": "strip"}]
+    assert set(explain_left_out(rows)) == {
+        "surface", "curvature", "density_zigzag", "density_strip", "axes"
+    }  # fmt: skip
+    plain = [one | {"tags": "mine", "pattern": "smooth"} for one in rows]
+    assert len(explain_left_out(plain)) == 7
+    assert explain_left_out(plain)["supports"] == "no two designs tagged supports to compare"
 
 
 def test_pairs_differ_in_the_support_alone():

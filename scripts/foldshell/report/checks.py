@@ -1,0 +1,103 @@
+"""The checks of a design with the share of its limit that each uses; the largest one governs."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from foldshell.files.whole import read_json
+from foldshell.records.analysis import AnalysisRecord, Criterion
+from foldshell.report.markup import format_number
+
+WORDS = {
+    "utilization_max": "utilization, largest panel mean [-]",
+    "utilization_panel_mean": "utilization, largest panel mean [-]",
+    "utilization_strip": "utilization of a strip of material [-]",
+    "displacement_vertical_m": "vertical displacement, down [mm]",
+    "edge_beam_utilization": "utilization of the edge beam [-]",
+}
+"""Criteria of the sizing loop that are limits of a structure; the others stop the loop."""
+BUCKLING = "buckling factor, elastic, perfect shell [-]"
+
+
+@dataclass(frozen=True)
+class Check:
+    """One check: value and limit in the unit of its name; `ratio` is 1 at the limit, above it the
+    check fails; `where` says which combination or panel governs it."""
+
+    name: str
+    value: float | None
+    limit: float | None
+    ratio: float | None
+    met: bool | None
+    where: str = ""
+
+    @property
+    def words(self) -> str:
+        """The check in one line."""
+        share = "" if self.ratio is None else f" ({100 * self.ratio:.0f} % of its limit)"
+        return f"{self.name}: {format_number(self.value)}, limit {format_number(self.limit)}{share}"
+
+
+def list_checks(final: AnalysisRecord, engineering: Mapping[str, Any] | None = None) -> list[Check]:
+    """Return the checks of a final state; those of checks/engineering.json follow, if given."""
+    checks = [
+        _of_criterion(name, item, final)
+        for name, item in final.criteria.items()
+        if name in WORDS and item.value is not None
+    ]
+    factor = final.least_factor
+    if factor is not None:
+        where = f"combination {final.least_factor_combination}"
+        ratio = 1 / factor if factor > 0 else None
+        checks.append(Check(BUCKLING, factor, 1.0, ratio, factor >= 1.0, where))
+    for name, item in ((engineering or {}).get("checks") or {}).items():
+        checks.append(_of_engineering(name, item))
+    return checks
+
+
+def _of_criterion(name: str, item: Criterion, final: AnalysisRecord) -> Check:
+    scale = 1e3 if name.endswith("_m") else 1.0
+    where = ""
+    if name == "displacement_vertical_m" and final.displacement_combination:
+        where = f"combination {final.displacement_combination}"
+        if final.displacement_place_m:
+            where += " at x {:.1f}, y {:.1f}, z {:.1f} m".format(*final.displacement_place_m)
+    ratio = item.value / item.limit if item.limit else None
+    return Check(WORDS[name], scale * item.value, scale * item.limit, ratio, item.met, where)
+
+
+def _of_engineering(name: str, item: Mapping[str, Any]) -> Check:
+    value, limit, met = item.get("value"), item.get("limit"), item.get("met")
+    unit = f" [{item['unit']}]" if item.get("unit") else ""
+    places = [f"{words} {item[key]}" for key, words in (("combination", "combination"),
+              ("governing_combination", "combination"), ("panel", "panel"))
+              if item.get(key) is not None]  # fmt: skip
+    return Check(f"{name.replace('_', ' ')}{unit}", value, limit,
+                 find_ratio(value, limit, met), met, ", ".join(places))  # fmt: skip
+
+
+def find_ratio(value: float | None, limit: float | None, met: bool | None) -> float | None:
+    """Return the share of the limit that a value uses; whether it is met tells which side of the
+    limit is the good one."""
+    if not isinstance(value, int | float) or not isinstance(limit, int | float):
+        return None
+    below = abs(value) <= abs(limit)
+    upper = met is None or below == bool(met)
+    above, under = (abs(value), abs(limit)) if upper else (abs(limit), abs(value))
+    return above / under if under else None
+
+
+def find_governing(checks: Sequence[Check]) -> Check | None:
+    """Return the check that uses most of its limit."""
+    known = [check for check in checks if check.ratio is not None]
+    return max(known, key=lambda check: check.ratio, default=None)
+
+
+def read_engineering(folder: str | Path) -> dict[str, Any] | None:
+    """Return checks/engineering.json of a design's folder, None where there is none."""
+    try:
+        found = read_json(Path(folder, "checks/engineering.json"))
+    except (OSError, ValueError):
+        return None
+    return found if isinstance(found, dict) else None

@@ -1,0 +1,184 @@
+"""The report of a study: cover, contact sheet, comparison, claims, verification, settings."""
+
+import base64
+import csv
+import io
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Any
+
+from PIL import Image
+
+from foldshell.files.whole import read_json
+from foldshell.records.analysis import AnalysisRecord, read_analysis
+from foldshell.records.claims import ClaimRecord
+from foldshell.records.comparison import ComparisonRecord, read_comparison
+from foldshell.records.files import read_record, read_records
+from foldshell.records.mesh_convergence import MeshConvergenceRecord
+from foldshell.report.checks import Check, find_governing, list_checks, read_engineering
+from foldshell.report.loads_section import describe_loads
+from foldshell.report.markdown import render_markdown
+from foldshell.report.markup import Table, make_table, render
+from foldshell.report.provenance import Provenance
+from foldshell.report.study_columns import Column, choose_columns, count_verdicts, make_row
+from foldshell.report.study_pages import list_settings
+from foldshell.report.verification import make_verification
+
+FIGURE_WIDTH = 800
+SIZE_MAX = 20_000_000
+"""Bytes of the whole report, which is to be sent by mail."""
+
+
+@dataclass(frozen=True)
+class DesignEntry:
+    """One design of the report: its row of summary.csv, and what its own files say of it."""
+
+    row: Mapping[str, str]
+    final: AnalysisRecord
+    checks: Sequence[Check]
+    comparison: ComparisonRecord
+    convergence: MeshConvergenceRecord
+
+    @property
+    def name(self) -> str:
+        """Name of the design."""
+        return self.row["design"]
+
+
+@dataclass(frozen=True)
+class StudyFiles:
+    """What a report is made of; `tiles` are small pictures of all designs by quantity."""
+
+    study: str
+    designs: Sequence[DesignEntry]
+    tiles: Mapping[str, Any]
+    figures: Mapping[str, str | Path]
+    claims: Sequence[ClaimRecord]
+    verification: str
+
+
+def read_study(
+    study: str, summary: str | Path, results: str | Path, tiles: str | Path,
+    figures: Mapping[str, str | Path], claims: str | Path | None, verification: str,
+) -> StudyFiles:  # fmt: skip
+    """Read summary.csv, the files of each design in `results`, tiles.json and claims.json."""
+    with Path(summary).open(encoding="utf-8", newline="") as stream:
+        rows = list(csv.DictReader(stream))
+    designs = [_read_design(row, Path(results, row["design"])) for row in rows]
+    judged = read_records(claims, ClaimRecord) if claims else []
+    return StudyFiles(study, designs, read_json(tiles), figures, judged, verification)
+
+
+def _read_design(row: Mapping[str, str], folder: Path) -> DesignEntry:
+    final = read_analysis(folder / "sizing/final.json")
+    return DesignEntry(
+        row,
+        final,
+        list_checks(final, read_engineering(folder)),
+        read_comparison(folder / "crosscheck/comparison.json"),
+        read_record(folder / "mesh_convergence.json", MeshConvergenceRecord),
+    )
+
+
+def write_study_report(
+    files: StudyFiles,
+    settings: Mapping[str, Any],
+    settings_hash: str,
+    provenance: Provenance,
+    to_results: str,
+    left_out: Mapping[str, str],
+) -> str:
+    """Return the report as one page; `to_results` is the way from its folder to the designs',
+    `left_out` says why charts were not made.
+
+    Raises `ValueError` where it is larger than `SIZE_MAX` bytes.
+    """
+    columns = choose_columns([entry.row for entry in files.designs])
+    cards = [_make_card(entry, columns, to_results, files.tiles) for entry in files.designs]
+    page = render(
+        "study.html",
+        title=f"Folded shells: study {files.study}",
+        study=files.study,
+        verdicts=count_verdicts([entry.row for entry in files.designs]),
+        kinds=describe_kinds([entry.row for entry in files.designs]),
+        worst=list_worst(files.designs),
+        columns=columns,
+        cards=cards,
+        pictures=[{"name": name, "words": sheet["words"], "scale": sheet["scale"]}
+                  for name, sheet in files.tiles.items()],
+        figures=[_show_figure(name, path) for name, path in files.figures.items()],
+        left_out=left_out,
+        claims=files.claims,
+        verification=make_verification(files.designs),
+        benchmarks=render_markdown(files.verification),
+        loads=describe_loads(settings),
+        settings=list_settings(settings),
+        settings_hash=settings_hash,
+        provenance=provenance,
+        data={"columns": [asdict(column) for column in columns], "designs": cards},
+        to_results=to_results,
+    )  # fmt: skip
+    if len(page.encode()) > SIZE_MAX:
+        raise ValueError(f"report of {len(page.encode())} bytes: {SIZE_MAX} at most")
+    return page
+
+
+def _make_card(
+    entry: DesignEntry, columns: Sequence[Column], to_results: str, tiles: Mapping[str, Any]
+) -> dict[str, Any]:
+    """Return what the report says of one design, as plain data for template and script."""
+    governing = find_governing(entry.checks)
+    row = make_row(entry.row, columns, governing)
+    return {
+        "name": entry.name,
+        "page": f"{to_results}/{entry.name}/page.html",
+        "sheet": f"{to_results}/{entry.name}/sheet.pdf",
+        "values": {key: cell.value for key, cell in row.items()},
+        "kinds": {key: cell.kind for key, cell in row.items() if cell.kind},
+        "governing": governing.words if governing else "no check has a value",
+        "tags": [tag for tag in entry.row["tags"].split(",") if tag],
+        "pictures": {name: sheet["pictures"].get(entry.name, "") for name, sheet in tiles.items()},
+    }
+
+
+def describe_kinds(rows: Sequence[Mapping[str, str]]) -> str:
+    """Return what was studied in one sentence: surfaces, sizes, supports, patterns."""
+    parts = []
+    for key, one, many in (("surface", "surface", "surfaces"), ("support", "kind of support",
+                           "kinds of support"), ("pattern", "pattern", "patterns"),
+                           ("fold_mode", "folding mode", "folding modes")):  # fmt: skip
+        found = Counter(row[key] for row in rows)
+        parts.append(f"{len(found)} {one if len(found) == 1 else many} ({', '.join(found)})")
+    sizes = sorted({(float(row["span_m"]), float(row["height_m"])) for row in rows})
+    words = ", ".join(f"{span:g}/{height:g}" for span, height in sizes)
+    return f"{'; '.join(parts)}; span/height {words} m"
+
+
+def list_worst(designs: Sequence[DesignEntry]) -> Table:
+    """Return the worst check of each kind over all designs: which design, value, limit, share."""
+    found: dict[str, tuple[str, Check]] = {}
+    for entry in designs:
+        for check in entry.checks:
+            known = found.get(check.name)
+            if check.ratio is not None and (known is None or check.ratio > known[1].ratio):
+                found[check.name] = (entry.name, check)
+    rows = [
+        (check.name, name, check.value, check.limit, f"{100 * check.ratio:.0f} %",
+         "yes" if check.met else "no", check.where)
+        for name, check in found.values()
+    ]  # fmt: skip
+    header = ("check", "worst in", "value", "limit", "of its limit", "met", "where")
+    return make_table(header, rows)
+
+
+def _show_figure(name: str, path: str | Path) -> dict[str, str]:
+    """Return a chart as a data URI, reduced to `FIGURE_WIDTH` pixels or a little more."""
+    with Image.open(path) as picture:
+        whole = picture.convert("RGB")
+        small = whole.reduce(max(1, whole.width // FIGURE_WIDTH))
+    stream = io.BytesIO()
+    small.save(stream, format="WEBP", quality=80, method=2)
+    data = "data:image/webp;base64," + base64.b64encode(stream.getvalue()).decode("ascii")
+    return {"name": name.replace("_", " "), "data": data}

@@ -1,0 +1,139 @@
+"""Which charts over the designs of a study compare anything, told from the table of designs."""
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Protocol, TypeVar
+
+SURFACES = ("paraboloid", "hypar", "arch")
+SUPPORTS = ("all", "zigzag", "strip")
+UNFOLDED = ("smooth", "flat")
+
+
+class Layout(Protocol):
+    """What a chart sorts designs by."""
+
+    tags: Sequence[str]
+    pattern: str
+    surface: str
+    support: str
+    span_height: str
+    density: str
+
+
+Design = TypeVar("Design", bound=Layout)
+
+
+@dataclass(frozen=True)
+class TableDesign:
+    """A row of designs.tsv as charts sort it."""
+
+    tags: tuple[str, ...]
+    pattern: str
+    surface: str
+    support: str
+    span_height: str
+    density: str
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Which designs a figure compares: a column of charts for each value of `column`, a line or
+    bar for each value of `series`."""
+
+    title: str
+    tag: str
+    column: Callable[[Layout], str]
+    series: Callable[[Layout], str]
+    chosen: Callable[[Layout], bool] = lambda design: True
+
+
+COMPARISONS: dict[str, Comparison] = {
+    "supports": Comparison("Supported edges", "supports", lambda d: d.surface, lambda d: d.support),
+    "surface": Comparison(
+        "Surfaces", "supports", lambda d: f"{d.support} edges supported", lambda d: d.surface
+    ),
+    "curvature": Comparison(
+        "Span / height [m]",
+        "curvature",
+        lambda d: f"{d.surface}, {d.support} edges supported",
+        lambda d: d.span_height,
+    ),
+    "density_zigzag": Comparison(
+        "Zig-zags x strips, zig-zag edges supported",
+        "density",
+        lambda d: d.surface,
+        lambda d: d.density,
+        lambda d: d.support == "zigzag",
+    ),
+    "density_strip": Comparison(
+        "Zig-zags x strips, strip edges supported",
+        "density",
+        lambda d: d.surface,
+        lambda d: d.density,
+        lambda d: d.support == "strip",
+    ),
+}
+
+
+def make_table_design(row: Mapping[str, Any]) -> TableDesign:
+    """Return a plain row of designs.tsv as charts sort it."""
+    tags = tuple(row["tags"].split(","))
+    size = f"{row['span_m']:g}/{row['height_m']:g}"
+    density = f"{row['zigzag']}x{row['strip']}"
+    return TableDesign(tags, row["pattern"], row["surface"], row["support"], size, density)
+
+
+def sort_into_columns(
+    designs: Iterable[Design], comparison: Comparison
+) -> dict[str, dict[str, Design]]:
+    """Return {column: {series: design}} of the designs of a comparison.
+
+    Surfaces and supports keep the order of the paper, other series that of the summary. A column
+    with one design compares nothing and is left out.
+    """
+    chosen = [d for d in designs if comparison.tag in d.tags and comparison.chosen(d)]
+    chosen.sort(key=lambda d: (_place(d.surface, SURFACES), _place(d.support, SUPPORTS)))
+    columns: dict[str, dict[str, Design]] = {}
+    for design in chosen:
+        columns.setdefault(comparison.column(design), {})[comparison.series(design)] = design
+    return {name: members for name, members in columns.items() if len(members) > 1}
+
+
+def pair_supports(designs: Sequence[Design]) -> list[tuple[Design, Design]]:
+    """Return pairs that differ only in being supported on zig-zag or on strip edges (Fig. 8)."""
+    key = {
+        (d.pattern, d.surface, d.span_height, d.density, d.support): d
+        for d in designs
+        if "density" in d.tags
+    }
+    pairs = [
+        (design, key[(*rest, "strip")])
+        for (*rest, support), design in key.items()
+        if support == "zigzag" and (*rest, "strip") in key
+    ]
+    return sorted(pairs, key=lambda pair: _place(pair[0].surface, SURFACES))
+
+
+def choose_panel_surfaces(designs: Iterable[Layout]) -> list[str]:
+    """Return the surfaces of folded designs, those of the paper first."""
+    found = {d.surface for d in designs if d.pattern not in UNFOLDED}
+    return sorted(found, key=lambda name: (_place(name, SURFACES), name))
+
+
+def explain_left_out(rows: Iterable[Mapping[str, Any]]) -> dict[str, str]:
+    """Return the charts that plain rows of designs.tsv give nothing to compare for, and why."""
+    designs = [make_table_design(row) for row in rows]
+    reasons = {
+        name: f"no two designs tagged {comparison.tag} to compare"
+        for name, comparison in COMPARISONS.items()
+        if not sort_into_columns(designs, comparison)
+    }
+    if not pair_supports(designs):
+        reasons["axes"] = "no two designs tagged density that differ in their supported edges only"
+    if not choose_panel_surfaces(designs):
+        reasons["planarity_utilization"] = "no folded design"
+    return reasons
+
+
+def _place(value: str, order: Sequence[str]) -> int:
+    return order.index(value) if value in order else len(order)
