@@ -1,14 +1,14 @@
-"""Folded shell structures, from crease pattern to sized and cross-checked structure.
+"""Folded shells, from crease pattern to sized and cross-checked structure; one stage a file in rules/.
 
-`snakemake --cores 2` runs the study, `snakemake --cores 2 demo` one small design,
-`snakemake --cores 2 tag_<tag>` a part of config/designs.tsv. One file per stage in rules/.
+`snakemake --cores 2` runs the study, `... demo` one small design, `... tag_<tag>` a part of the table.
 """
 
 import os
 import sys
 from pathlib import Path
 
-sys.path.insert(0, str(Path(workflow.current_basedir) / "scripts"))
+HOME = Path(str(workflow.current_basedir)).resolve()
+sys.path.insert(0, str(HOME / "scripts"))
 
 from foldshell.settings.config_file import read_config
 from foldshell.engine.environment import ONE_THREAD, prepare_environment
@@ -18,7 +18,6 @@ from foldshell.settings.load import load_study
 from foldshell.files.edits import keep_all_edited
 
 prepare_environment(os.environ)
-
 
 with user_errors():
     check_snakemake()

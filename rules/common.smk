@@ -5,6 +5,7 @@ import math
 
 from foldshell.settings.designs import SURFACES, select_designs
 from foldshell.engine.imports import write_content_list, write_library_list
+from foldshell.files.package_data import library_folder
 from foldshell.records.catalogue import FILES
 from foldshell.settings.stages import choose_subdivisions, settings_hash, stage_parameters
 
@@ -21,7 +22,8 @@ THICKNESSES = ("start_thickness", "least_thickness", "largest_thickness")
 LOOP = f"{RESULTS}/{{design}}/sizing"
 STEP = f"{LOOP}/{{iteration}}"
 # Relative in the project's own folder, so that a moved project does not run anew.
-SCRIPTS = "scripts" if Path.cwd() == Path(workflow.basedir) else f"{workflow.basedir}/scripts"
+SCRIPTS = "scripts" if Path.cwd() == HOME else f"{HOME}/scripts"
+PAGES = "scripts/foldshell/report" if Path.cwd() == HOME else f"{library_folder()}/foldshell/report"
 
 
 def code_inputs(script):
@@ -32,7 +34,7 @@ def code_inputs(script):
 def assets():
     """Return the list of templates, styles and scripts of the pages, as an input of a rule: they
     are read, not imported."""
-    files = [path for path in Path(f"{SCRIPTS}/foldshell/report").rglob("*") if path.is_file()]
+    files = [path for path in Path(PAGES).rglob("*") if path.is_file()]
     data = sorted(path for path in files if path.suffix not in (".py", ".pyc"))
     return write_content_list(data, ".snakemake/library")
 

@@ -17,7 +17,7 @@ rule manifest:
         "../envs/foldshell.yaml"
     params:
         deciding_rules=DECIDING,
-        code=str(workflow.basedir),
+        code=str(HOME),
     message:
         "{wildcards.design}: manifest"
     script:

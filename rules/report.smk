@@ -100,7 +100,7 @@ rule snakemake_report:
     input:
         report_files,
         library=code_inputs("snakemake_report"),
-        stylesheet=f"{SCRIPTS}/foldshell/report/snakemake_report.css",
+        stylesheet=f"{PAGES}/snakemake_report.css",
     output:
         report=f"{RESULTS}/snakemake_report.html",
     log:

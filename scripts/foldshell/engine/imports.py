@@ -12,7 +12,10 @@ import hashlib
 from collections.abc import Iterable
 from pathlib import Path
 
+from foldshell.files.package_data import library_folder
 from foldshell.files.whole import hash_file, write_text_if_changed
+
+PACKAGE = "foldshell"
 
 
 def write_library_list(script: str | Path, root: str | Path, folder: str | Path) -> str:
@@ -20,10 +23,9 @@ def write_library_list(script: str | Path, root: str | Path, folder: str | Path)
 
     The name tells the content, so that a changed library is another input, whatever its date.
     """
-    lines = [
-        f"{_hash(path)}  {path.relative_to(root)}"
-        for path in map(Path, library_files(script, root))
-    ]
+    paths = map(Path, library_files(script, root))
+    named = sorted((str(path.relative_to(_root_of(path, Path(root)))), path) for path in paths)
+    lines = [f"{_hash(path)}  {name}" for name, path in named]
     return _write_list(lines, folder, Path(script).stem)
 
 
@@ -52,7 +54,8 @@ def library_files(script: str | Path, root: str | Path) -> list[str]:
     Parameters
     ----------
     script : path of a Python file
-    root : the folder from which its imports are resolved
+    root : the folder from which its imports are resolved; the library's own lie elsewhere where it
+        is installed, and are found there
     """
     root = Path(root)
     found: set[Path] = set()
@@ -63,6 +66,10 @@ def library_files(script: str | Path, root: str | Path) -> list[str]:
             found.add(path)
             pending.extend(_imported(path, root))
     return sorted(str(path) for path in found)
+
+
+def _root_of(path: Path, root: Path) -> Path:
+    return root if path.is_relative_to(root) else library_folder()
 
 
 @functools.cache
@@ -82,6 +89,8 @@ def _imported(path: Path, root: Path) -> tuple[Path, ...]:
 def _resolve(name: str, root: Path) -> list[Path]:
     """Return the module file of a dotted name and the __init__ files on the way to it."""
     parts = name.split(".")
+    if parts[0] == PACKAGE and not (root / PACKAGE).is_dir():
+        root = library_folder()
     package_files = [root.joinpath(*parts[:k], "__init__.py") for k in range(1, len(parts) + 1)]
     module = root.joinpath(*parts).with_suffix(".py")
     if not (module.exists() or root.joinpath(*parts, "__init__.py").exists()):

@@ -27,22 +27,25 @@ def write_quality(path: str | Path, result: FoldResult) -> None:
     write_timed_json(path, describe_quality(result))
 
 
-def write_folded(path: str | Path, sheet: Sheet, result: FoldResult) -> None:
-    """Write folded.npz: vertices and flat state [m], panels, facets, indices, panel fields."""
+def folded_arrays(sheet: Sheet, result: FoldResult) -> dict[str, np.ndarray]:
+    """Return the contents of folded.npz: vertices and flat state (V, 3) m, quads (P, 4), facets
+    (F, 3), zigzag and strip index (V,), planarity (P,) and strain (F, 3)."""
     grid, shape = sheet.grid, result.shape
-    write_arrays(
-        path,
-        {
-            "vertices": shape.vertices,
-            "quads": grid.quads,
-            "facets": grid.facets,
-            "zigzag": grid.zigzag_index,
-            "strip": grid.strip_index,
-            "flat": shape.flat,
-            "planarity": measure_planarity(shape.vertices, grid.quads),
-            "strain": measure_strain(shape.vertices, shape.flat, grid.facets),
-        },
-    )
+    return {
+        "vertices": shape.vertices,
+        "quads": grid.quads,
+        "facets": grid.facets,
+        "zigzag": grid.zigzag_index,
+        "strip": grid.strip_index,
+        "flat": shape.flat,
+        "planarity": measure_planarity(shape.vertices, grid.quads),
+        "strain": measure_strain(shape.vertices, shape.flat, grid.facets),
+    }
+
+
+def write_folded(path: str | Path, sheet: Sheet, result: FoldResult) -> None:
+    """Write folded.npz."""
+    write_arrays(path, folded_arrays(sheet, result))
 
 
 def write_folded_vtu(path: str | Path, sheet: Sheet, result: FoldResult) -> None:

@@ -11,10 +11,11 @@ import jsonschema
 import yaml
 
 from foldshell.files.errors import InputError
+from foldshell.files.package_data import workflow_folder
 from foldshell.files.plain_text import find_unsafe
 from foldshell.settings.nearest import find_nearest, hint_nearest
 
-CONFIG_FOLDER = Path(__file__).resolve().parents[3] / "config"
+CONFIG_FOLDER = workflow_folder() / "config"
 YAML, TABLE = "yaml", "table"
 _NUMBERS = {"number": "a number", "integer": "a whole number"}
 _TYPES = {**_NUMBERS, "string": "text", "boolean": "true or false", "array": "a list"}

@@ -79,7 +79,9 @@ def _collect_cells(data) -> tuple[np.ndarray, np.ndarray]:
     if data.IsA("vtkUnstructuredGrid"):
         return _collect_grid(data)
     if data.IsA("vtkStructuredGrid"):
-        return _collect_structured(data.GetDimensions())
+        dimensions = [0, 0, 0]
+        data.GetDimensions(dimensions)
+        return _collect_structured(dimensions)
     raise Refused(f"holds a {data.GetClassName()}: a mesh of polygons is needed")
 
 
@@ -132,10 +134,12 @@ def _collect_grid(data) -> tuple[np.ndarray, np.ndarray]:
     return np.concatenate([p[0] for p in parts]), np.concatenate([p[1] for p in parts])
 
 
-def _collect_structured(dimensions: tuple[int, int, int]) -> tuple[np.ndarray, np.ndarray]:
+def _collect_structured(dimensions: list[int]) -> tuple[np.ndarray, np.ndarray]:
     size = [k for k in dimensions if k > 1]
     if len(size) != 2:
-        raise Refused(f"a structured grid of {dimensions} points: a surface has one layer")
+        raise Refused(
+            f"a grid of {' x '.join(map(str, dimensions))} points: a surface has one layer"
+        )
     number = np.arange(size[0] * size[1]).reshape(size[1], size[0])
     sides = [number[:-1, :-1], number[:-1, 1:], number[1:, 1:], number[1:, :-1]]
     quads = np.stack([side.ravel() for side in sides], axis=1)

@@ -55,12 +55,12 @@ def read_surface(path: str | Path, span: float) -> Surface:
         middle = (0.5 * (low + high))[:2]
         step = _measure_step(mesh)
         _check_step(found, step if mesh.single else 0.0)
-        _check_scale(high - low, span)
         try:
-            _check_surface(found, span)
-            _check_cover(found, middle, span)
+            _check_scale(high - low, span)
+            _check_surface(found, span, step)
+            _check_cover(found, middle, span, step)
         except MeshError as error:
-            raise MeshError(f"{error}{_suspect_end(mesh)}{_suspect_step(found, step)}") from None
+            raise MeshError(f"{error}{_suspect_end(mesh)}") from None
     except MeshError as error:
         raise InputError(f"{path}: {error}") from None
     return Surface(
@@ -135,7 +135,7 @@ def guess_cause(size: np.ndarray, span: float) -> str:
     return words
 
 
-def _check_surface(found: Triangles, span: float) -> None:
+def _check_surface(found: Triangles, span: float, step: float) -> None:
     vertices, triangles = found.vertices, found.triangles
     edges, number = find_border(triangles)
     if (number > 2).any():
@@ -152,7 +152,7 @@ def _check_surface(found: Triangles, span: float) -> None:
         raise MeshError(
             f"{count(int(steep.sum()), 'triangle')} steeper than {math.degrees(STEEPEST):.0f} deg, "
             f"one near {_say_place(place)}: a surface without walls is needed, z up"
-            f"{_suspect_axis(vertices, triangles, span)}"
+            f"{_suspect_axis(vertices, triangles, span)}{_suspect_step(found, step)}"
         )
     low, high = vertices[:, :2].min(axis=0), vertices[:, :2].max(axis=0)
     if plan.sum() / 2 > 1.01 * np.prod(high - low):
@@ -180,7 +180,7 @@ def _say_place(point: np.ndarray) -> str:
     return f"x = {point[0]:.6g}, y = {point[1]:.6g} m"
 
 
-def _check_cover(found: Triangles, middle: np.ndarray, span: float) -> None:
+def _check_cover(found: Triangles, middle: np.ndarray, span: float, step: float) -> None:
     """Refuse a surface that leaves a place of the plan without a height near it."""
     along = np.linspace(-0.45 * span, 0.45 * span, SAMPLES)
     points = np.stack(np.meshgrid(along, along, indexing="ij"), axis=-1).reshape(-1, 2)
@@ -196,6 +196,7 @@ def _check_cover(found: Triangles, middle: np.ndarray, span: float) -> None:
         raise MeshError(
             f"no surface above {_say_place(bare[worst] + middle)}: must cover the square plan of "
             f"side {span:g} m about {_say_place(middle)}, the middle of its own plan"
+            f"{_suspect_step(found, step)}"
         )
 
 

@@ -1,0 +1,156 @@
+"""The front door: from a target surface to a sized shell, in memory.
+
+These functions join what the rules do one after the other; results are those of the workflow, to
+the last bit.
+"""
+
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from foldshell.files.package_data import workflow_folder
+from foldshell.folding.files import folded_arrays
+from foldshell.folding.fold import FoldResult
+from foldshell.folding.fold import fold_sheet as fold_onto
+from foldshell.folding.mesh_target import MeshTarget
+from foldshell.folding.quadric import Quadric
+from foldshell.folding.settings import read_settings
+from foldshell.folding.targets import measure_turning
+from foldshell.pattern.design import design_sheet
+from foldshell.pattern.fold_format import write_fold
+from foldshell.pattern.sheet import Sheet
+from foldshell.settings.make import make_settings
+from foldshell.settings.options import Settings
+from foldshell.settings.stages import stage_parameters
+from foldshell.shell.edge_beams import make_edge_beam
+from foldshell.shell.mesh_files import mesh_folded_sheet
+from foldshell.sizing.case import AnalysisCase, make_case
+from foldshell.sizing.iteration import IterationTask
+from foldshell.sizing.loop import run_loop
+from foldshell.sizing.rounding import round_thickness
+from foldshell.workbook.panels import PanelGrid, ThicknessTable
+from foldshell.workbook.write_thickness import write_thickness
+
+
+@dataclass(frozen=True)
+class FoldedSheet:
+    """A sheet folded onto a target; `result` tells its state, shape and quality."""
+
+    sheet: Sheet
+    target: Quadric | MeshTarget
+    result: FoldResult
+
+
+@dataclass(frozen=True)
+class Shell:
+    """A folded sheet meshed and supported, ready to be analysed; `span` in m."""
+
+    case: AnalysisCase
+    grid: PanelGrid
+    span: float
+    settings: Settings
+
+
+@dataclass(frozen=True)
+class SizedShell:
+    """A shell and the analyses of its loop; `reports` have the keys of analysis.json.
+
+    `thickness` (P,) m of the panels, `utilization` (P,) by the measure of the settings, of the last
+    analysis.
+    """
+
+    shell: Shell
+    reports: tuple[dict[str, Any], ...]
+    thickness: np.ndarray
+    utilization: np.ndarray
+
+    @property
+    def last(self) -> dict[str, Any]:
+        """The report of the last analysis: verdict, reason, volume_m3, buckling_factor, ..."""
+        return self.reports[-1]
+
+
+def make_sheet(
+    target: Quadric | MeshTarget,
+    zigzag_count: int,
+    strip_count: int,
+    pattern: str = "miura",
+    sector_angle_deg: float = 60.0,
+) -> Sheet:
+    """Size a crease pattern of so many zig-zags and strips for a target.
+
+    `pattern` is miura, arc_miura, smooth (the target itself) or flat. Raises `ValueError`.
+    """
+    lengths, turning = target.section_lengths(), measure_turning(target)
+    counts = zigzag_count, strip_count
+    return design_sheet(pattern, lengths, *counts, sector_angle_deg, turning=turning)
+
+
+def fold_sheet(
+    sheet: Sheet,
+    target: Quadric | MeshTarget,
+    mode: str = "paper",
+    settings: Settings | None = None,
+) -> FoldedSheet:
+    """Fold a sheet onto a target; a sheet that does not reach it says so in `result.state`."""
+    values = stage_parameters(settings or make_settings({}), "fold")["fold"]
+    return FoldedSheet(sheet, target, fold_onto(sheet, target, mode, read_settings(values)))
+
+
+def mesh_shell(
+    folded: FoldedSheet,
+    support: str = "all",
+    settings: Settings | None = None,
+    edge_beam: tuple[float, float] = (0.0, 0.0),
+) -> Shell:
+    """Mesh a folded sheet, pin it along zig-zag, strip or all borders, and hang an edge beam of a
+    depth and a thickness (m) from free ones. Raises `ValueError` for a mechanism."""
+    settings = settings or make_settings({})
+    arrays = folded_arrays(folded.sheet, folded.result)
+    beam = make_edge_beam(*edge_beam)
+    mesh = mesh_folded_sheet(arrays, support, settings.analysis.subdivisions, edge_beam=beam)
+    case = make_case(mesh, stage_parameters(settings, "analyse"))
+    first = folded.sheet.grid.quads[:, 0]
+    grid = PanelGrid(arrays["zigzag"][first], arrays["strip"][first])
+    return Shell(case, grid, folded.target.span, settings)
+
+
+def analyse_shell(shell: Shell, thickness: float | np.ndarray) -> SizedShell:
+    """Analyse a shell of one thickness, or of one per panel (P,) m, to second order."""
+    values = np.broadcast_to(np.asarray(thickness, float), shell.grid.panel.shape)
+    task = IterationTask(0, shell.span, round_thickness(values), {}, {})
+    report, arrays = shell.case.run(task)
+    return _gather(shell, [report], arrays)
+
+
+def size_shell(shell: Shell) -> SizedShell:
+    """Size the panels of a shell from the start thickness of the settings until a verdict."""
+    done = run_loop(shell.case, shell.span, stage_parameters(shell.settings, "resize")["sizing"])
+    return _gather(shell, done.reports, done.arrays)
+
+
+def _gather(shell: Shell, reports: list, arrays: dict[str, np.ndarray]) -> SizedShell:
+    unknown = np.full(shell.grid.panel.size, np.nan)
+    used = arrays.get(f"utilization_{shell.case.rule.measure}", unknown)
+    return SizedShell(shell, tuple(reports), arrays["thickness"], used)
+
+
+def write_workbook(path: str | Path, sized: SizedShell, title: str = "shell") -> None:
+    """Write thickness.xlsx with the thicknesses (m) of a shell's panels."""
+    rule, last = sized.shell.case.rule, sized.last
+    summary = {name: last[name] for name in ("iteration", "verdict", "reason", "volume_m3")}
+    table = ThicknessTable(sized.shell.grid, sized.thickness)
+    bounds = rule.least_thickness, rule.largest_thickness
+    write_thickness(path, table, {"design": title} | summary, *bounds)
+
+
+def write_pattern(path: str | Path, sheet: Sheet, title: str = "sheet") -> None:
+    """Write a crease pattern as a FOLD file (m)."""
+    write_fold(path, sheet, title)
+
+
+def snakefile() -> str:
+    """Return the path of the workflow's Snakefile, to be included by one of your own."""
+    return str(workflow_folder() / "Snakefile")
