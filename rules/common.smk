@@ -3,7 +3,8 @@
 import functools
 import math
 
-from foldshell.settings.designs import SURFACES, select_designs
+from foldshell.settings.design import SURFACES
+from foldshell.settings.designs import select_designs
 from foldshell.engine.imports import write_content_list, write_library_list
 from foldshell.files.package_data import library_folder
 from foldshell.records.catalogue import FILES
@@ -18,7 +19,6 @@ SECTOR_ANGLE_DEG = round(math.degrees(SETTINGS.pattern.sector_angle), 10)
 BEFORE_LOOP, AFTER_LOOP = 1, 2
 PICTURES = ["thickness", "classes", "utilization", "displacement", "planarity"]
 PICTURES += ["strain", "principal_stress_lines", "isolines", "buckling"]
-THICKNESSES = ("start_thickness", "least_thickness", "largest_thickness")
 LOOP = f"{RESULTS}/{{design}}/sizing"
 STEP = f"{LOOP}/{{iteration}}"
 # Relative in the project's own folder, so that a moved project does not run anew.

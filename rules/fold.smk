@@ -17,7 +17,7 @@ rule fold:
         "../envs/foldshell.yaml"
     params:
         **of_design("surface", "span_m", "height_m", "fold_mode"),
-        settings=lambda wildcards: of_stage("fold")(wildcards)["fold"],
+        settings=of_stage("fold"),
     message:
         "{wildcards.design}: folding onto the target surface"
     script:
@@ -39,7 +39,7 @@ rule unfold:
         "../envs/foldshell.yaml"
     params:
         **of_design("fold_mode"),
-        drawings=lambda wildcards: of_stage("drawings")(wildcards)["drawings"],
+        settings=of_stage("drawings"),
     message:
         "{wildcards.design}: crease pattern of the folded sheet"
     script:

@@ -17,7 +17,7 @@ rule pattern:
     params:
         **of_design("pattern", "surface", "span_m", "height_m", "zigzag", "strip"),
         sector_angle_deg=SECTOR_ANGLE_DEG,
-        drawings=lambda wildcards: of_stage("drawings")(wildcards)["drawings"],
+        settings=of_stage("drawings"),
     message:
         "{wildcards.design}: crease pattern"
     script:

@@ -17,7 +17,7 @@ rule start:
         "../envs/foldshell.yaml"
     params:
         **of_design("zigzag", "strip"),
-        **{name: getattr(SETTINGS.sizing, name) for name in THICKNESSES},
+        settings=of_stage("start"),
         settings_hash=settings_hash_of("start"),
     message:
         "{wildcards.design}: start thickness"

@@ -2,14 +2,19 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from foldshell.engine.job import run_job
 from foldshell.figures.contact_sheet import draw_sheet, make_tile, pack_sheets, render_sheets
 from foldshell.figures.layout import save_png
 from foldshell.figures.study_data import read_states
 from foldshell.files.whole import write_json
-from foldshell.results.design_view import read_limits, view_design
+from foldshell.results.design_view import view_design
+from foldshell.settings.analysis import Analysis
+from foldshell.settings.field import Plain
+from foldshell.settings.loads import Combinations, Loads
+from foldshell.settings.material import Material
+from foldshell.settings.sizing import Sizing
+from foldshell.settings.stage import read_stage
 
 
 def main(
@@ -18,17 +23,18 @@ def main(
     pages: Mapping[str, str | Path],
     tiles_path: str | Path,
     *,
-    settings: Mapping[str, Any],
+    settings: Plain,
 ) -> None:
     """Write the pages `all_thickness` and `all_utilization`, and their views for the report.
 
     `results` has one folder per design; `settings` are the plain parameters of stage `size`.
     """
+    given = read_stage(settings, Material, Loads, Combinations, Analysis, Sizing)
     tiles = [
-        make_tile(view_design(state, settings, design.number["span_m"], design.pattern))
-        for design, state in read_states(summary_path, results, settings["combinations"])
+        make_tile(view_design(state, given, design.number["span_m"], design.pattern))
+        for design, state in read_states(summary_path, results, given.combinations)
     ]
-    sheets = render_sheets(tiles, read_limits(settings).utilization_max)
+    sheets = render_sheets(tiles, given.sizing.utilization_max)
     for name, sheet in sheets.items():
         save_png(pages[f"all_{name}"], draw_sheet(tiles, sheet))
     write_json(tiles_path, pack_sheets(sheets))

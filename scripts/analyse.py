@@ -1,15 +1,19 @@
 """Rule analyse: second-order shell analysis of one workbook of thicknesses, and the verdict."""
 
 import sys
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from foldshell.engine.job import run_job
 from foldshell.engine.progress import describe_iteration
 from foldshell.files.edits import keep_edited
 from foldshell.files.whole import hash_file, read_arrays, read_json, write_arrays, write_timed_json
-from foldshell.sizing.case import make_stop_rule, open_case
+from foldshell.settings.analysis import Analysis
+from foldshell.settings.field import Plain
+from foldshell.settings.loads import Combinations, Loads
+from foldshell.settings.material import Material
+from foldshell.settings.sizing import Sizing
+from foldshell.settings.stage import read_stage
+from foldshell.sizing.case import open_case
 from foldshell.sizing.iteration import IterationTask
 from foldshell.workbook.panels import make_panel_grid
 from foldshell.workbook.read_thickness import read_thickness
@@ -26,18 +30,18 @@ def main(
     span_m: float,
     zigzag: int,
     strip: int,
-    settings: Mapping[str, Any],
+    settings: Plain,
     previous: tuple[str, str] | None = None,
 ) -> None:
     """Write analysis.npz, then analysis.json; `previous` names those of the iteration before."""
-    limits = make_stop_rule(settings["sizing"])
+    given = read_stage(settings, Material, Loads, Combinations, Analysis, Sizing)
     edited = keep_edited(workbook_path)
     grid = make_panel_grid(zigzag, strip)
-    bounds = limits.least_thickness, limits.largest_thickness
+    bounds = given.sizing.least_thickness, given.sizing.largest_thickness
     thickness = read_thickness(workbook_path, grid, *bounds)
     before = (read_json(previous[0]), read_arrays(previous[1])) if previous else ({}, {})
     task = IterationTask(iteration, span_m, thickness, *before)
-    report, fields = open_case(mesh_path, settings).run(task)
+    report, fields = open_case(mesh_path, given).run(task)
     report["edited"] = edited
     report["workbook_sha256"] = hash_file(workbook_path)
     write_arrays(arrays_path, fields)

@@ -11,6 +11,14 @@ from foldshell.claims.study import judge_study, list_runs, write_spread
 from foldshell.claims.words import write_claims
 from foldshell.engine.job import run_job
 from foldshell.files.whole import atomic_path, write_json
+from foldshell.settings.analysis import Analysis
+from foldshell.settings.crosscheck import Crosscheck
+from foldshell.settings.field import Plain
+from foldshell.settings.fold import Fold, Pattern
+from foldshell.settings.loads import Combinations, Loads
+from foldshell.settings.material import Material
+from foldshell.settings.sizing import Sizing
+from foldshell.settings.stage import read_stage
 from foldshell.workbook.tables import write_csv
 
 
@@ -22,7 +30,7 @@ def main(
     *,
     designs: Mapping[str, Sequence[Mapping[str, Any]]],
     variants: Sequence[str],
-    settings: Mapping[str, Any],
+    settings: Plain,
 ) -> None:
     """Write claims.json, claims.md and the table of all runs with other settings.
 
@@ -30,8 +38,11 @@ def main(
     with other settings (`variants`), `flats` with a flat sheet of equal volume. `settings` are
     the plain parameters of the stage `study`.
     """
-    found: Sources = read_sources(Path(results), designs, variants, settings)
-    claims = judge_study(*found, make_comparer(settings["sizing"]))
+    given = read_stage(
+        settings, Pattern, Fold, Material, Loads, Combinations, Analysis, Sizing, Crosscheck
+    )
+    found: Sources = read_sources(Path(results), designs, variants, given)
+    claims = judge_study(*found, make_comparer(given.sizing))
     write_json(json_path, claims)
     rows = list_runs(found.variants)
     write_csv(runs_path, list(rows[0]) if rows else ["design", "variant"], rows)

@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from foldshell.engine.job import run_job
 from foldshell.exchange.design_vtu import write_design_vtu, write_lines_vtu
@@ -10,7 +9,13 @@ from foldshell.figures.layout import save_png
 from foldshell.figures.pictures import draw_design
 from foldshell.results.design_view import view_design
 from foldshell.results.state import read_state
+from foldshell.settings.analysis import Analysis
+from foldshell.settings.field import Plain
+from foldshell.settings.loads import Combinations, Loads
 from foldshell.settings.material import Material
+from foldshell.settings.sizing import Sizing
+from foldshell.settings.stage import read_stage
+from foldshell.settings.study import Figures
 
 
 def main(
@@ -26,19 +31,17 @@ def main(
     design: str,
     span_m: float,
     pattern: str,
-    settings: Mapping[str, Any],
+    settings: Plain,
 ) -> None:
     """Write design.vtu, design_lines.vtu and the PNG files of `pictures`, named as in `PICTURES`;
     `settings` are the parameters of stages `size` and `figures`, report_path is final.json."""
     files = mesh_path, folded_path, final_path, report_path
-    state = read_state(design, *files, settings["combinations"], classes_path)
-    view = view_design(state, settings, span_m, pattern)
-    combinations = settings["combinations"]["strength"] | settings["combinations"]["deflection"]
-    material = settings["material"]
-    known = Material(**material) if "criterion" in material else None
-    write_design_vtu(vtu_path, state, view.elasticity, known, combinations)
+    given = read_stage(settings, Material, Loads, Combinations, Analysis, Sizing, Figures)
+    state = read_state(design, *files, given.combinations, classes_path)
+    view = view_design(state, given, span_m, pattern)
+    write_design_vtu(vtu_path, state, view.material, given.combinations.all)
     write_lines_vtu(lines_path, view)
-    size = tuple(settings["figures"][key] for key in ("width_px", "height_px"))
+    size = (given.figures.width_px, given.figures.height_px)
     for name, picture in draw_design(view, size, tuple(pictures)).items():
         save_png(pictures[name], picture)
 

@@ -1,13 +1,17 @@
 """Rule flat_equal: the flat sheet with the volume of material of a sized folded sheet."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from foldshell.claims.flat_equal import analyse_flat
 from foldshell.claims.measures import Layout
 from foldshell.engine.job import run_job
 from foldshell.files.whole import read_arrays, read_json, write_json
+from foldshell.settings.analysis import Analysis
+from foldshell.settings.field import Plain
+from foldshell.settings.loads import Combinations, Loads
+from foldshell.settings.material import Material
+from foldshell.settings.sizing import Sizing
+from foldshell.settings.stage import read_stage
 
 
 def main(
@@ -19,7 +23,7 @@ def main(
     layout: tuple[int, int, str],
     span_m: float,
     subdivisions: int,
-    settings: Mapping[str, Any],
+    settings: Plain,
 ) -> None:
     """Read folded.npz of the flat sheet and final.json of the folded one; write flat_equal.json.
 
@@ -28,7 +32,8 @@ def main(
     """
     volume = read_json(final_path)["volume_m3"]
     sheet = read_arrays(flat_path)
-    found = analyse_flat(sheet, Layout(*layout), volume, span_m, subdivisions, settings)
+    given = read_stage(settings, Material, Loads, Combinations, Analysis, Sizing)
+    found = analyse_flat(sheet, Layout(*layout), volume, span_m, subdivisions, given)
     write_json(json_path, {"flat": flat} | found)
 
 

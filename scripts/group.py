@@ -1,12 +1,17 @@
 """Rule group: the sized panels in a few thickness classes, and the analysis of that design."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from foldshell.engine.job import run_job
 from foldshell.files.errors import InputError
 from foldshell.files.whole import read_arrays, read_json, write_arrays, write_timed_json
+from foldshell.settings.analysis import Analysis
+from foldshell.settings.field import Plain
+from foldshell.settings.loads import Combinations, Loads
+from foldshell.settings.material import Material
+from foldshell.settings.sizing import Sizing
+from foldshell.settings.stage import read_stage
 from foldshell.sizing.case import open_case
 from foldshell.sizing.grouping import analyse_classes
 
@@ -19,7 +24,7 @@ def main(
     *,
     span_m: float,
     classes: int,
-    settings: Mapping[str, Any],
+    settings: Plain,
 ) -> None:
     """Write classes.npz, then classes.json, from the last of the analyses."""
     last = Path(analysis_paths[-1])
@@ -29,7 +34,9 @@ def main(
         raise InputError(
             f"{last}: cannot be read: delete this file and start again, it is computed anew"
         ) from None
-    found, fields = analyse_classes(open_case(mesh_path, settings), span_m, report, arrays, classes)
+    given = read_stage(settings, Material, Loads, Combinations, Analysis, Sizing)
+    case = open_case(mesh_path, given)
+    found, fields = analyse_classes(case, span_m, report, arrays, classes)
     write_arrays(arrays_path, fields)
     write_timed_json(json_path, found)
 

@@ -19,7 +19,7 @@ def main(
     figure_path: str | Path,
     trajectories_path: str | Path,
     *,
-    sector_angle_deg: float = 60.0,
+    sector_angle_deg: float,
     densities: tuple[tuple[int, int], ...] = ((7, 8), (9, 10), (11, 12)),
     sweeps: Sweeps = SWEEPS,
 ) -> None:

@@ -20,7 +20,7 @@ def main(
     design: str,
     support: str,
     subdivisions: int,
-    edge_beam: Sequence[float] = (0.0, 0.0),
+    edge_beam: Sequence[float],
 ) -> None:
     """Read folded.npz, write mesh.npz (for the analysis) and mesh.vtu (to look at).
 

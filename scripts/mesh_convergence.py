@@ -1,14 +1,17 @@
 """Rule mesh_convergence: the final state on a second mesh, for its error and the cross-check."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from foldshell.engine.job import run_job
 from foldshell.files.whole import read_arrays, write_json
-from foldshell.loads.cases import Loads
+from foldshell.loads.cases import make_load_cases
 from foldshell.results.mesh_convergence import estimate_errors, find_largest_errors, study_mesh
+from foldshell.settings.crosscheck import Crosscheck
+from foldshell.settings.field import Plain
+from foldshell.settings.loads import Combinations, Loads
 from foldshell.settings.material import Material
+from foldshell.settings.stage import read_stage
 from foldshell.shell.edge_beams import make_edge_beam
 
 
@@ -19,24 +22,22 @@ def main(
     primary_path: str | Path,
     *,
     support: str,
-    edge_beam: Sequence[float] = (0.0, 0.0),
+    edge_beam: Sequence[float],
     subdivisions: int,
-    settings: Mapping[str, Any],
+    settings: Plain,
 ) -> None:
     """Write mesh_convergence.json (errors of the mesh in use), crosscheck/primary.json; those of a
     mechanism hold the reason in place of numbers."""
-    chosen = settings["crosscheck"]
-    groups = settings["combinations"]
-    combinations = {
-        chosen[group]: groups[group][chosen[group]] for group in ("strength", "deflection")
-    }
+    given = read_stage(settings, Material, Loads, Combinations, Crosscheck)
+    compared = given.crosscheck.strength, given.crosscheck.deflection
+    combinations = {name: given.combinations.all[name] for name in compared}
     study = study_mesh(
         read_arrays(folded_path),
         support,
         read_arrays(final_path)["thickness"],
         subdivisions,
-        Material(**settings["material"]),
-        Loads(**settings["loads"]),
+        given.material,
+        make_load_cases(given.loads, given.material.unit_weight),
         combinations,
         make_edge_beam(*edge_beam),
     )

@@ -1,12 +1,15 @@
 """Rule neutral_model: the final state of a design as a model that any FE program can read."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from foldshell.engine.job import run_job
 from foldshell.exchange.neutral_model import make_neutral_model
 from foldshell.files.whole import read_arrays, write_json
+from foldshell.settings.crosscheck import Crosscheck
+from foldshell.settings.field import Plain
+from foldshell.settings.loads import Combinations, Loads
+from foldshell.settings.material import Material
+from foldshell.settings.stage import read_stage
 
 
 def main(
@@ -15,11 +18,12 @@ def main(
     model_path: str | Path,
     *,
     design: str,
-    settings: Mapping[str, Any],
+    settings: Plain,
 ) -> None:
     """Write crosscheck/model.json from mesh.npz and the final thicknesses."""
     thickness = read_arrays(final_path)["thickness"]
-    model = make_neutral_model(design, read_arrays(mesh_path), thickness, settings)
+    given = read_stage(settings, Material, Loads, Combinations, Crosscheck)
+    model = make_neutral_model(design, read_arrays(mesh_path), thickness, given)
     write_json(model_path, model)
 
 

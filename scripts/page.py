@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from foldshell.engine.job import run_job
 from foldshell.files.whole import atomic_path
@@ -11,6 +10,13 @@ from foldshell.report.sections import read_files
 from foldshell.report.viewer_data import make_viewer_data
 from foldshell.results.design_view import view_design
 from foldshell.results.state import read_state
+from foldshell.settings.analysis import Analysis
+from foldshell.settings.design import Design
+from foldshell.settings.field import Plain
+from foldshell.settings.loads import Combinations, Loads
+from foldshell.settings.material import Material
+from foldshell.settings.sizing import Sizing
+from foldshell.settings.stage import read_stage
 
 ARRAYS = ("mesh", "folded", "arrays", "final")
 """Inputs that hold the final state; `classes` are added to it."""
@@ -21,8 +27,8 @@ def main(
     pictures: Mapping[str, str | Path],
     page_path: str | Path,
     *,
-    design: Mapping[str, Any],
-    settings: Mapping[str, Any],
+    design: Plain,
+    settings: Plain,
 ) -> None:
     """Write the page.
 
@@ -35,11 +41,12 @@ def main(
     settings : plain parameters of stage `size`
     """
     state_paths = [paths[name] for name in ARRAYS]
-    combinations, name = settings["combinations"], design["design"]
-    state = read_state(name, *state_paths, combinations, paths["class_arrays"])
-    view = view_design(state, settings, design["span_m"], design["pattern"])
-    files = read_files(design, paths)
-    limit = view.limits.utilization_max
+    one = Design.from_row(design)
+    given = read_stage(settings, Material, Loads, Combinations, Analysis, Sizing)
+    state = read_state(one.name, *state_paths, given.combinations, paths["class_arrays"])
+    view = view_design(state, given, one.span, one.pattern)
+    files = read_files(one, paths)
+    limit = view.sizing.utilization_max
     page = write_design_page(files, make_viewer_data(view), pictures, limit)
     with atomic_path(page_path) as temporary:
         temporary.write_text(page, encoding="utf-8")

@@ -1,8 +1,6 @@
 """Rule pattern: the crease pattern of a design, sized for its target, as a FOLD file."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from foldshell.engine.job import run_job
 from foldshell.files.errors import InputError
@@ -10,29 +8,32 @@ from foldshell.folding.targets import make_target, measure_turning
 from foldshell.pattern.design import design_sheet
 from foldshell.pattern.drawings import draw_pattern, write_dxf, write_svg
 from foldshell.pattern.fold_format import write_fold
+from foldshell.settings.exports import Drawings
+from foldshell.settings.field import Plain
+from foldshell.settings.stage import read_stage
 
 
 def main(
     fold_path: str | Path,
     *,
     design: str,
-    pattern: str = "miura",
-    surface: str = "paraboloid",
-    span_m: float = 28.0,
-    height_m: float = 10.0,
-    zigzag: int = 15,
-    strip: int = 16,
-    sector_angle_deg: float = 60.0,
+    pattern: str,
+    surface: str,
+    span_m: float,
+    height_m: float,
+    zigzag: int,
+    strip: int,
+    sector_angle_deg: float,
     frames: int = 9,
     dxf_path: str | Path | None = None,
     svg_path: str | Path | None = None,
-    drawings: Mapping[str, Any] | None = None,
+    settings: Plain,
 ) -> None:
     """Write crease_pattern.fold: flat pattern, rest state and `frames` folded states [m].
 
-    `dxf_path`, `svg_path`: the flat pattern as drawings [mm] too, by the settings `drawings`.
+    `dxf_path`, `svg_path`: the flat pattern as drawings [mm] too, by `settings` of `drawings`.
     """
-    style = {"preset": "fold", "scale": 1.0, **(drawings or {})}
+    style = read_stage(settings, Drawings).drawings
     try:
         target = make_target(surface, span_m, height_m)
         lengths, turning = target.section_lengths(), measure_turning(target)
@@ -41,11 +42,11 @@ def main(
         raise
     except ValueError as error:
         raise InputError(f"design {design}: {error}") from None
-    drawing = draw_pattern(sheet.flat, sheet.grid, style["scale"], f"{design}, crease pattern")
+    drawing = draw_pattern(sheet.flat, sheet.grid, style.scale, f"{design}, crease pattern")
     if dxf_path:
-        write_dxf(dxf_path, drawing, style["preset"])
+        write_dxf(dxf_path, drawing, style.preset)
     if svg_path:
-        write_svg(svg_path, drawing, style["preset"])
+        write_svg(svg_path, drawing, style.preset)
     write_fold(fold_path, sheet, design)
 
 

@@ -1,12 +1,13 @@
 """Rule resize: the workbook of the next iteration from the analysis of this one."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from foldshell.engine.job import run_job
 from foldshell.files.edits import recorded_workbook
 from foldshell.files.whole import read_arrays, read_json, write_arrays
+from foldshell.settings.field import Plain
+from foldshell.settings.sizing import Sizing
+from foldshell.settings.stage import read_stage
 from foldshell.sizing.step import summarise_step, take_step
 from foldshell.workbook.panels import ThicknessTable, make_panel_grid
 from foldshell.workbook.write_thickness import write_thickness
@@ -24,14 +25,14 @@ def main(
     design: str,
     zigzag: int,
     strip: int,
-    settings: Mapping[str, Any],
+    settings: Plain,
     settings_hash: str,
     previous_memory: str | Path | None = None,
 ) -> None:
     """Write thickness.xlsx, memory.npz and written.json of the iteration after `json_path`."""
-    sizing = settings["sizing"]
+    sizing = read_stage(settings, Sizing).sizing
     analysis, arrays = read_json(json_path), read_arrays(arrays_path)
-    thickness, used = arrays["thickness"], arrays.get(f"utilization_{sizing['measure']}")
+    thickness, used = arrays["thickness"], arrays.get(f"utilization_{sizing.measure}")
     memory = read_arrays(previous_memory) if previous_memory else {}
     following = take_step(analysis, arrays, memory, sizing)
     new = following.thickness
@@ -41,7 +42,7 @@ def main(
     summary = summarise_step(design, analysis, sizing) | {"settings_hash": settings_hash}
     write_arrays(memory_path, following.memory)
     with recorded_workbook(workbook_path, record_path) as temporary:
-        write_thickness(temporary, table, summary, *(sizing[name] for name in LIMITS))
+        write_thickness(temporary, table, summary, *(getattr(sizing, name) for name in LIMITS))
 
 
 if "snakemake" in globals():

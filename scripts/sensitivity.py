@@ -1,13 +1,17 @@
 """Rule sensitivity: the sizing loop of one design under one changed setting, in memory."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from foldshell.claims.measures import Layout, measure_state
 from foldshell.claims.sensitivity import VARIANTS, change_settings
 from foldshell.engine.job import run_job
 from foldshell.files.whole import read_arrays, write_json
+from foldshell.settings.analysis import Analysis
+from foldshell.settings.field import Plain
+from foldshell.settings.loads import Combinations, Loads
+from foldshell.settings.material import Material
+from foldshell.settings.sizing import Sizing
+from foldshell.settings.stage import read_stage
 from foldshell.sizing.case import open_case
 from foldshell.sizing.loop import run_loop
 
@@ -20,22 +24,23 @@ def main(
     variant: str,
     span_m: float,
     layout: tuple[int, int, str],
-    settings: Mapping[str, Any],
+    settings: Plain,
 ) -> None:
     """Write what claims compare of the last state.
 
     `layout` are zigzag, strip and support of the design, `settings` the plain parameters of the
     stage `size` before the variant changes them.
     """
-    changed = change_settings(settings, variant)
-    result = run_loop(open_case(mesh_path, changed), span_m, changed["sizing"])
+    given = read_stage(settings, Material, Loads, Combinations, Analysis, Sizing)
+    changed = change_settings(given, variant)
+    result = run_loop(open_case(mesh_path, changed), span_m, changed.sizing)
     measures = measure_state(
         read_arrays(mesh_path),
         Layout(*layout),
         result.reports[-1],
         result.arrays,
-        changed["combinations"],
-        changed["sizing"]["measure"],
+        changed.combinations,
+        changed.sizing.measure,
     )
     report = {"design": design, "variant": variant, "changes": VARIANTS[variant]}
     write_json(json_path, report | {"measures": measures})

@@ -2,14 +2,20 @@
 
 import platform
 import shutil
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
 
 from foldshell.engine.job import run_job
 from foldshell.files.whole import atomic_path, read_arrays, read_json, write_json
 from foldshell.results.gather import gather_iterations, remove_superseded
+from foldshell.settings.analysis import Analysis
+from foldshell.settings.design import Design
+from foldshell.settings.field import Plain
+from foldshell.settings.loads import Combinations, Loads
+from foldshell.settings.material import Material
+from foldshell.settings.sizing import Sizing
+from foldshell.settings.stage import read_stage
 from foldshell.workbook.design import write_design
 from foldshell.workbook.design_report import make_design_report
 from foldshell.workbook.history import write_history, write_history_csv
@@ -26,17 +32,19 @@ def main(
     final_json_path: str | Path,
     final_arrays_path: str | Path,
     *,
-    design: Mapping[str, Any],
-    settings: Mapping[str, Any],
+    design: Plain,
+    settings: Plain,
     settings_hash: str,
 ) -> None:
     """Write history.csv, history.xlsx, design.xlsx and copies of the last analysis, from that and
     classes.json, classes.npz. Iterations left behind the last one are removed; edited workbooks
     among them are kept under sizing/superseded."""
-    iterations = gather_iterations(json_paths, design, settings["sizing"])
+    one = Design.from_row(design)
+    given = read_stage(settings, Material, Loads, Combinations, Analysis, Sizing)
+    iterations = gather_iterations(json_paths, one, given.sizing)
     versions = {"python": platform.python_version()} | {name: version(name) for name in PACKAGES}
     more = versions, read_json(classes_paths[0]), read_arrays(classes_paths[1])["panel_class"]
-    report = make_design_report(iterations, design, settings, settings_hash, *more)
+    report = make_design_report(iterations, one, given, settings_hash, *more)
     write_history_csv(csv_path, iterations.history)
     write_history(history_path, iterations.history, report.verdict, report.utilization_max)
     write_design(design_path, report)

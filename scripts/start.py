@@ -6,6 +6,9 @@ import numpy as np
 
 from foldshell.engine.job import run_job
 from foldshell.files.edits import recorded_workbook
+from foldshell.settings.field import Plain
+from foldshell.settings.sizing import Sizing
+from foldshell.settings.stage import read_stage
 from foldshell.workbook.panels import ThicknessTable, make_panel_grid
 from foldshell.workbook.write_thickness import write_thickness
 
@@ -17,24 +20,24 @@ def main(
     design: str,
     zigzag: int,
     strip: int,
-    start_thickness: float,
-    least_thickness: float,
-    largest_thickness: float,
+    settings: Plain,
     settings_hash: str,
 ) -> None:
     """Write sizing/00/thickness.xlsx with one thickness (m) for all panels."""
+    sizing = read_stage(settings, Sizing).sizing
+    least, largest = sizing.least_thickness, sizing.largest_thickness
     grid = make_panel_grid(zigzag, strip)
-    table = ThicknessTable(grid, np.full(len(grid.panel), start_thickness))
+    table = ThicknessTable(grid, np.full(len(grid.panel), sizing.start_thickness))
     summary = {
         "design": design,
         "iteration": 0,
         "verdict": "not analysed yet",
-        "least_thickness_m": least_thickness,
-        "largest_thickness_m": largest_thickness,
+        "least_thickness_m": least,
+        "largest_thickness_m": largest,
         "settings_hash": settings_hash,
     }
     with recorded_workbook(workbook_path, record_path) as temporary:
-        write_thickness(temporary, table, summary, least_thickness, largest_thickness)
+        write_thickness(temporary, table, summary, least, largest)
 
 
 if "snakemake" in globals():

@@ -2,14 +2,18 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 from foldshell.engine.job import run_job
 from foldshell.figures.charts import draw_axes_comparison, draw_comparison, save_figure
 from foldshell.figures.planarity_chart import draw_planarity_chart
 from foldshell.figures.study_data import add_fields, read_states
 from foldshell.results.comparisons import COMPARISONS
-from foldshell.results.design_view import read_limits
+from foldshell.settings.analysis import Analysis
+from foldshell.settings.field import Plain
+from foldshell.settings.loads import Combinations, Loads
+from foldshell.settings.material import Material
+from foldshell.settings.sizing import Sizing
+from foldshell.settings.stage import read_stage
 
 OTHERS = {"axes": draw_axes_comparison, "planarity_utilization": draw_planarity_chart}
 CHARTS = (*COMPARISONS, *OTHERS)
@@ -20,18 +24,18 @@ def main(
     results: str | Path,
     charts: Mapping[str, Sequence[str | Path]],
     *,
-    settings: Mapping[str, Any],
+    settings: Plain,
 ) -> None:
     """Write the named charts (of `CHARTS`; PNG or SVG by suffix).
 
     `results` has one folder per design; `settings` are the plain parameters of stage `size`.
     """
-    limits = read_limits(settings)
-    states = read_states(summary_path, results, settings["combinations"])
+    given = read_stage(settings, Material, Loads, Combinations, Analysis, Sizing)
+    states = read_states(summary_path, results, given.combinations)
     designs = [add_fields(design, state) for design, state in states]
     for name, paths in charts.items():
         if name in COMPARISONS:
-            limit = limits.displacement_limit_span_over
+            limit = given.sizing.displacement_limit_span_over
             figure = draw_comparison(designs, COMPARISONS[name], limit)
         else:
             figure = OTHERS[name](designs)

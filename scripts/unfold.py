@@ -1,8 +1,6 @@
 """Rule unfold: the crease pattern that a folded design really has, as FOLD, DXF and SVG."""
 
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -12,6 +10,9 @@ from foldshell.files.whole import read_arrays
 from foldshell.pattern.drawings import draw_pattern, write_dxf, write_svg
 from foldshell.pattern.fold_format import read_fold, write_fold
 from foldshell.pattern.unfold import describe_true_sheet, name_flat_state
+from foldshell.settings.exports import Drawings
+from foldshell.settings.field import Plain
+from foldshell.settings.stage import read_stage
 
 
 def main(
@@ -22,17 +23,17 @@ def main(
     svg_path: str | Path,
     *,
     design: str,
-    fold_mode: str = "exact",
+    fold_mode: str,
     frames: int = 9,
-    drawings: Mapping[str, Any] | None = None,
+    settings: Plain,
 ) -> None:
     """Read crease_pattern.fold and folded.npz; write developable_pattern.fold, .dxf and .svg.
 
     The flat state is that of folded.npz: the unfolded panels in exact and rigid mode, else the
     given pattern, as the files say. The folded shape is a frame after `frames` of its rigid path,
-    where panels can follow one. `drawings` are the settings of that group.
+    where panels can follow one. `settings` are those of stage `drawings`.
     """
-    style = {"preset": "fold", "scale": 1.0, **(drawings or {})}
+    style = read_stage(settings, Drawings).drawings
     sheet, folded = read_fold(pattern_path), read_arrays(folded_path)
     count, due = len(folded["vertices"]), len(sheet.flat)
     if count != due:
@@ -40,9 +41,9 @@ def main(
     parts = np.linspace(0.0, 1.0, frames + 1)[:-1]
     true = describe_true_sheet(sheet, folded["flat"], folded["vertices"], parts)
     title = f"{design}, {name_flat_state(sheet.grid, folded, fold_mode)}"
-    drawing = draw_pattern(true.flat, true.grid, style["scale"], title)
-    write_dxf(dxf_path, drawing, style["preset"])
-    write_svg(svg_path, drawing, style["preset"])
+    drawing = draw_pattern(true.flat, true.grid, style.scale, title)
+    write_dxf(dxf_path, drawing, style.preset)
+    write_svg(svg_path, drawing, style.preset)
     write_fold(fold_path, true, title)
 
 

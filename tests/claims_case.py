@@ -23,7 +23,7 @@ def make_row(design: str | None = None, **columns: Any) -> dict[str, Any]:
     """Return the columns of designs.tsv; the name is made of them unless given."""
     row = {
         "pattern": "miura", "surface": "paraboloid", "span_m": 28.0, "height_m": 10.0,
-        "zigzag": 15, "strip": 16, "support": "all", "fold_mode": "paper", "tags": "table1",
+        "zigzag": 15, "strip": 16, "support": "all", "fold_mode": "elastic", "tags": "table1",
     } | columns  # fmt: skip
     name = "-".join(str(row[k]) for k in ("pattern", "surface", "height_m", "zigzag", "strip",
                                           "support", "fold_mode"))  # fmt: skip

@@ -46,7 +46,7 @@ def describe_model(vertices, facets, supported_edges, thickness, facet_panel=Non
             "criterion": "von_mises",
         },
         "loads_kn_m2": {"SDL": 0.5, "LL": 1.0, "W": 1.7, "wind_fraction": 0.5},
-        "area_basis": "mesh",
+        "area_basis": "sheet",
         "combinations": copy.deepcopy(COMBINATIONS),
         "compare": {"strength": "S2", "deflection": "D2"},
     }

@@ -9,6 +9,7 @@ from foldshell.folding.quality import measure_planarity
 from foldshell.pattern.miura import Miura
 from foldshell.pattern.sheet import make_miura_sheet
 from foldshell.results.state import read_state
+from foldshell.settings.loads import Combinations
 from foldshell.shell.mesh_files import mesh_folded_sheet, read_mesh, write_mesh
 
 COMBINATIONS = {"strength": {"S1": {}, "S2": {}}, "deflection": {"D1": {}, "D2": {}}}
@@ -79,4 +80,4 @@ def free_count(mesh, folder):
 def make_state(folder, **options):
     """Write a case and read it back as the state that pictures are drawn from."""
     *files, classes = write_case(folder, **options)
-    return read_state("case", *files, COMBINATIONS, classes)
+    return read_state("case", *files, Combinations(**COMBINATIONS), classes)

@@ -5,11 +5,11 @@ import math
 import numpy as np
 
 from foldshell.folding.fold import fold_sheet
-from foldshell.folding.settings import FoldSettings
 from foldshell.folding.targets import make_target
 from foldshell.pattern.design import design_sheet
 from foldshell.pattern.miura import Miura
 from foldshell.pattern.sheet import make_miura_sheet
+from foldshell.settings.fold import Fold
 
 SPAN_HEIGHTS = ((28, 10), (13, 5), (5, 2), (28, 28), (28, 6))
 DENSITIES = ((30, 16), (50, 16), (15, 16), (30, 32), (8, 32))
@@ -36,8 +36,8 @@ def differentiate(function, vertices, step=1e-6):
     return np.column_stack(columns)
 
 
-def fold_case(surface, span, height, zigzag, strip, mode="paper", angle=60.0, **settings):
+def fold_case(surface, span, height, zigzag, strip, mode="elastic", angle=60.0, **settings):
     """Fold one design; returns sheet, target and result."""
     target = make_target(surface, span, height)
     sheet = design_sheet("miura", target.section_lengths(), zigzag, strip, angle, 0)
-    return sheet, target, fold_sheet(sheet, target, mode, FoldSettings(**settings))
+    return sheet, target, fold_sheet(sheet, target, mode, Fold(**settings))

@@ -8,15 +8,14 @@ from PIL import Image
 
 from figure_cases import COMBINATIONS, PANELS, write_case
 from foldshell.files.whole import write_arrays, write_json
+from foldshell.settings.make import make_settings
+from foldshell.settings.stages import stage_parameters
 
 DESIGN = {"design": "case", "pattern": "miura", "surface": "paraboloid", "span_m": 5.0,
-          "height_m": 2.0, "zigzag": 5, "strip": 6, "support": "strip", "fold_mode": "paper",
+          "height_m": 2.0, "zigzag": 5, "strip": 6, "support": "strip", "fold_mode": "elastic",
+          "edge_beam_depth_m": 0.0, "edge_beam_thickness_m": 0.0,
           "tags": "one,two"}  # fmt: skip
-SETTINGS = {
-    "combinations": COMBINATIONS,
-    "material": {"youngs_modulus": 31e6, "poissons_ratio": 0.2},
-    "sizing": {"utilization_max": 1.0, "displacement_limit_span_over": 240},
-}
+SETTINGS = stage_parameters(make_settings({}), "size") | {"combinations": COMBINATIONS}
 QUANTITY = {"primary": 0.1, "independent": 0.11, "relative_difference": 0.09, "tolerance": 0.05,
             "pass": False}  # fmt: skip
 

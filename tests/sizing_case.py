@@ -6,13 +6,11 @@ from typing import Any
 
 import numpy as np
 
-from foldshell.loads.cases import Loads
 from foldshell.settings.config_file import read_config
 from foldshell.settings.make import make_settings
-from foldshell.settings.material import Material
-from foldshell.settings.stages import stage_parameters
+from foldshell.settings.stage import StageSettings, read_stage
+from foldshell.settings.stages import STAGES, stage_parameters
 from foldshell.shell.mesh_files import mesh_folded_sheet, write_mesh
-from foldshell.sizing.iteration import LoadPlan
 
 CONFIG = Path(__file__).parents[1] / "config" / "config.yaml"
 ZIGZAG, STRIP = 4, 5
@@ -20,7 +18,8 @@ PANELS = (ZIGZAG - 1) * (STRIP - 1)
 SPAN = 6.0
 DESIGN = {
     "design": "small", "tags": "", "pattern": "miura", "surface": "paraboloid", "span_m": SPAN,
-    "height_m": 1.0, "zigzag": ZIGZAG, "strip": STRIP, "support": "all", "fold_mode": "paper",
+    "height_m": 1.0, "zigzag": ZIGZAG, "strip": STRIP, "support": "all", "fold_mode": "elastic",
+    "edge_beam_depth_m": 0.0, "edge_beam_thickness_m": 0.0,
 }  # fmt: skip
 
 
@@ -56,8 +55,6 @@ def stage(name: str, **sizing: Any) -> dict[str, Any]:
     return values | {"sizing": values["sizing"] | known}
 
 
-def stage_objects() -> tuple[Material, LoadPlan]:
-    """Return the material, the loads and the combinations at their defaults."""
-    values = stage("analyse")
-    plan = LoadPlan(Loads(**values["loads"]), **values["combinations"])
-    return Material(**values["material"]), plan
+def given(name: str, **sizing: Any) -> StageSettings:
+    """Return the typed settings of a stage at their defaults; `sizing` replaces some of them."""
+    return read_stage(stage(name, **sizing), *STAGES[name])

@@ -20,7 +20,7 @@ def compute_surface_loads(model: Model, normal: np.ndarray) -> np.ndarray:
     differs where a facet overhangs. Facets of `bare` panels carry their own weight only.
     """
     loads = model.loads
-    share = np.abs(normal[:, 2]) if loads.area_basis == "plan" else np.ones(len(normal))
+    share = np.abs(normal[:, 2]) if loads.area_basis == "plan_abs" else np.ones(len(normal))
     side = np.where(normal[:, 2] < 0, -1.0, 1.0) if loads.dead_side == "downward" else 1.0
     wind = loads.wind * loads.wind_fraction * share
     surface = np.zeros((len(normal), 3, len(CASES)))

@@ -11,6 +11,9 @@ from crosscheck.reading import Place, read_json
 FORMATS = ("foldshell-neutral-model 1", "foldshell-neutral-model 2")
 """The second may name panels that carry their own weight only."""
 CASES = ("SW", "SDL", "LL", "WX", "WY")
+FORMER_AREAS = {"mesh": "sheet", "plan": "plan_abs"}
+"""Words of older model files."""
+
 CRITERIA = ("von_mises", "rankine", "drucker_prager")
 
 
@@ -34,7 +37,7 @@ class Loads:
     live: float
     wind: float
     wind_fraction: float
-    area_basis: str  # mesh | plan
+    area_basis: str  # sheet | plan_abs
     dead_side: str  # downward | sheet
 
 
@@ -146,13 +149,14 @@ def _read_material(place: Place) -> Material:
 
 def _read_loads(root: Place) -> Loads:
     place = root.key("loads_kn_m2")
+    area = root.key("area_basis").one_of(["sheet", "plan_abs", *FORMER_AREAS])
     side = place.key("dead_side", "downward").one_of(["downward", "sheet"])
     return Loads(
         dead=place.key("SDL").number(least=0.0),
         live=place.key("LL").number(least=0.0),
         wind=place.key("W").number(least=0.0),
         wind_fraction=place.key("wind_fraction").number(least=0.0),
-        area_basis=root.key("area_basis").one_of(["mesh", "plan"]),
+        area_basis=FORMER_AREAS.get(area, area),
         dead_side=side,
     )
 

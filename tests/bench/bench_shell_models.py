@@ -8,9 +8,10 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foldshell.loads.cases import Loads, surface_loads
+from foldshell.loads.cases import make_load_cases, surface_loads
+from foldshell.settings.loads import Loads
 from foldshell.shell.mesh import build_mesh, edge_polyline_nodes
-from foldshell.shell.supports import supported_pairs
+from foldshell.shell.supports import find_support, supported_pairs
 from verification.folded_cases import CONCRETE, FoldedCase, load_sheet
 
 COMBINATION = np.array([1.2, 1.2, 1.6, 0.5, 0.0])
@@ -35,7 +36,9 @@ def peer_model(case: FoldedCase, subdivisions: int, shape: str) -> PeerModel:
     linear = build_mesh(sheet["vertices"], sheet["facets"], None, 1, order=subdivisions)
     pieces = _pieces(linear)
     mesh = build_mesh(linear.nodes, pieces, order=order, subdivisions=1)
-    pairs = supported_pairs(linear.node_pairs, sheet["zigzag"], sheet["strip"], case.support)
+    pairs = supported_pairs(
+        linear.node_pairs, sheet["zigzag"], sheet["strip"], find_support(case.support)
+    )
     held = edge_polyline_nodes(linear, pairs)
     ends = np.isin(mesh.node_pairs, held).all(axis=1)
     along = _on_supported_edge(linear, pairs, mesh.node_pairs[ends])
@@ -104,7 +107,7 @@ def _forces(mesh, nodes, elements, thickness, shape) -> np.ndarray:
     area = np.linalg.norm(cross, axis=1) / 2
     normal = cross / (2 * area[:, None])
     weight = CONCRETE.unit_weight
-    surface = surface_loads(normal, np.full(len(area), thickness), weight, Loads())
+    surface = surface_loads(normal, np.full(len(area), thickness), make_load_cases(Loads(), weight))
     sideways = np.zeros((len(area), 3, 2))
     sideways[:, 0, 0] = sideways[:, 1, 1] = weight * thickness
     surface = np.concatenate([surface, sideways], axis=2)

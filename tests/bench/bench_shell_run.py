@@ -28,6 +28,7 @@ from crosscheck.opensees import (  # noqa: E402
     prepare_linear,
     solve_columns,
 )
+from foldshell.settings.loads import Loads  # noqa: E402
 from verification.folded_cases import CASES, CONCRETE  # noqa: E402
 
 SHAPES = {"ASDShellT3": "T3", "ASDShellQ4": "Q4", "S3": "T3", "S6": "T6", "S8R": "Q8"}
@@ -113,7 +114,7 @@ def run_calculix(case, n, element, _system, task):
 
 def run_foldshell(case, n, _element, solver, task):
     """Return CPU s, wall s, dofs and the largest downward displacement."""
-    from foldshell.loads.cases import Loads, surface_loads
+    from foldshell.loads.cases import make_load_cases, surface_loads
     from foldshell.shell.analysis import build_model
     from foldshell.shell.assembly import assemble_stiffness
     from foldshell.shell.linear_solver import factorise
@@ -133,7 +134,7 @@ def run_foldshell(case, n, _element, solver, task):
     began = time.process_time(), time.perf_counter()
     model = build_model(mesh, arrays["supported_nodes"], CONCRETE.poissons_ratio)
     normal = model.operators.geometry.frame[:, 2]
-    surface = surface_loads(normal, thickness, CONCRETE.unit_weight, Loads())
+    surface = surface_loads(normal, thickness, make_load_cases(Loads(), CONCRETE.unit_weight))
     if task == "linear7":
         sideways = np.zeros((len(normal), 3, 2))
         sideways[:, 0, 0] = sideways[:, 1, 1] = CONCRETE.unit_weight * thickness

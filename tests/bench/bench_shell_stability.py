@@ -6,7 +6,8 @@ import numpy as np
 from scipy.sparse import csr_array
 
 from foldshell.checks.utilization import compute_utilization
-from foldshell.loads.cases import Loads, combination_matrix, surface_loads
+from foldshell.loads.cases import combination_matrix, make_load_cases, surface_loads
+from foldshell.settings.loads import Loads
 from foldshell.shell.analysis import analyse_shell, build_model
 from foldshell.shell.assembly import assemble_stiffness
 from foldshell.shell.geometric import apply_geometric, geometric_tables, pull_back
@@ -50,7 +51,9 @@ class Problem:
         self.modulus, self.solver = CONCRETE.youngs_modulus, solver
         self.operators, self.pattern = self.model.operators, self.model.pattern
         normal = self.operators.geometry.frame[:, 2]
-        surface = surface_loads(normal, self.thickness, CONCRETE.unit_weight, Loads())
+        surface = surface_loads(
+            normal, self.thickness, make_load_cases(Loads(), CONCRETE.unit_weight)
+        )
         cases = nodal_forces(self.operators, surface)
         self.forces = (cases @ combination_matrix(COMBINATIONS))[self.pattern.dofs]
         self.values = assemble_stiffness(self.operators, self.pattern, self.thickness, self.modulus)
@@ -115,14 +118,25 @@ def packed_geometric(problem: Problem, force):
 def sizing_iteration(problem: Problem):
     """Assembly, factor, factors of eight combinations, second order, utilization; warm start."""
     rng = np.random.default_rng(1)
-    first = analyse_shell(problem.model, problem.thickness, CONCRETE, Loads(), COMBINATIONS)
+    first = analyse_shell(
+        problem.model,
+        problem.thickness,
+        CONCRETE,
+        make_load_cases(Loads(), CONCRETE.unit_weight),
+        COMBINATIONS,
+    )
     changed = (
         problem.thickness
         * rng.choice([0.9, 1.0, 1.1], problem.mesh.panel.max() + 1)[problem.mesh.panel]
     )
     clock = Clock()
     result = analyse_shell(
-        problem.model, changed, CONCRETE, Loads(), COMBINATIONS, start_modes=first.buckling.modes
+        problem.model,
+        changed,
+        CONCRETE,
+        make_load_cases(Loads(), CONCRETE.unit_weight),
+        COMBINATIONS,
+        start_modes=first.buckling.modes,
     )
     compute_utilization(problem.model, result.displacement[:, :5], changed, CONCRETE)
     return *clock.read(), float(result.buckling.factors.min())

@@ -15,10 +15,10 @@ import pytest
 from foldshell.folding.fold import SOLVERS, fold_sheet
 from foldshell.folding.normal_equations import cholmod
 from foldshell.folding.quality import root_mean_square
-from foldshell.folding.settings import FoldSettings
 from foldshell.folding.targets import make_target
 from foldshell.folding.terms import measure_distances
 from foldshell.pattern.design import design_sheet
+from foldshell.settings.fold import Fold
 
 pytestmark = pytest.mark.bench
 TABLE = Path(__file__).parents[2] / "results" / "bench" / "folding.csv"
@@ -36,9 +36,9 @@ def _case(surface, zigzag, strip):
     return design_sheet("miura", target.section_lengths(), zigzag, strip, 60.0, 0), target
 
 
-def _time(solver, sheet, target, settings=None, mode="paper"):
+def _time(solver, sheet, target, settings=None, mode="elastic"):
     """Best of three runs for small tasks, one for long ones; `value` is rms over span."""
-    settings = settings or FoldSettings()
+    settings = settings or Fold()
     best = None
     for _ in range(3):
         cpu, wall = time.process_time(), time.perf_counter()
@@ -92,7 +92,7 @@ def test_cost_of_folding(monkeypatch):
             row["exponent"] = round(exponent, 3)
         names = " ".join(rows[0][key] for key in ("task", "surface", "solver"))
         print(f"{names}: cpu ~ vertices^{exponent:.2f}")
-    explicit = FoldSettings(engine="averaged_projections")
+    explicit = Fold(engine="averaged_projections")
     series.append([_time("averaged_projections", *_case("paraboloid", 15, 16), explicit)])
     _write([row for rows in series for row in rows])
     assert max(rows[0]["exponent"] for rows in series[:-1]) < 2.0
@@ -101,6 +101,6 @@ def test_cost_of_folding(monkeypatch):
 def test_checks_are_cheap_beside_folding():
     """Quality with self-intersections on 10 000 vertices must not dwarf the folding itself."""
     sheet, target = _case("paraboloid", 70, 70)
-    result = fold_sheet(sheet, target, "paper", FoldSettings())
+    result = fold_sheet(sheet, target, "elastic", Fold())
     solved = _time(DEFAULT, sheet, target)
     assert result.seconds < 10 * solved["wall_s"]

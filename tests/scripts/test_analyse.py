@@ -8,7 +8,7 @@ import start
 from foldshell.files.errors import InputError
 from foldshell.files.whole import hash_file, read_arrays, read_json, write_arrays
 from foldshell.sizing.case import open_case
-from sizing_case import PANELS, SPAN, STRIP, ZIGZAG, stage, write_small_mesh
+from sizing_case import PANELS, SPAN, STRIP, ZIGZAG, given, stage, write_small_mesh
 
 KEYS = """
     iteration verdict reason criteria utilization_max utilization_p99 utilization_panel_mean_max
@@ -26,7 +26,7 @@ def _start(folder, thickness=0.15):
     book = folder / "00/thickness.xlsx"
     start.main(
         book, folder / "00/written.json", design="small", zigzag=ZIGZAG, strip=STRIP,
-        start_thickness=thickness, least_thickness=0.04, largest_thickness=1.0, settings_hash="",
+        settings=stage("start", start_thickness=thickness), settings_hash="",
     )  # fmt: skip
     return book
 
@@ -92,12 +92,13 @@ def test_a_process_that_goes_on_uses_a_new_mesh_of_the_same_name(tmp_path):
     """The case of the last analysis is remembered by contents, with its settings."""
     path = tmp_path / "mesh.npz"
     write_small_mesh(path)
-    first, same = (open_case(path, stage("analyse")) for _ in range(2))
+    first, same = (open_case(path, given("analyse")) for _ in range(2))
     assert same is first
-    other = open_case(path, stage("analyse") | {"loads": stage("analyse")["loads"] | {"live": 2.0}})
-    assert other.plan.loads.live == 2.0 != first.plan.loads.live
+    changed = given("analyse").changed(given("analyse").loads.changed(live=2.0))
+    other = open_case(path, changed)
+    assert [case.cases[2].value for case in (other, first)] == [2.0, 1.0]
     arrays = read_arrays(path)
     write_arrays(path, arrays | {"nodes": 2 * arrays["nodes"]})
-    larger = open_case(path, stage("analyse"))
+    larger = open_case(path, given("analyse"))
     areas = [case.model.operators.geometry.area for case in (first, larger)]
     np.testing.assert_allclose(areas[1], 4 * areas[0], rtol=1e-12)  # rounding

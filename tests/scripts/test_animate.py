@@ -7,10 +7,11 @@ from PIL import Image
 
 import animate
 import pattern
+from entry_defaults import pattern_parameters
 
 
 def test_path_becomes_a_moving_picture(tmp_path):
-    pattern.main(tmp_path / "a.fold", design="x", zigzag=5, strip=6, frames=4)
+    pattern.main(tmp_path / "a.fold", design="x", **pattern_parameters(zigzag=5, strip=6, frames=4))
     animate.main(tmp_path / "a.fold", tmp_path / "a.gif", tmp_path / "stills")
     stills = sorted((tmp_path / "stills").glob("still_*.png"))
     assert len(stills) == 4  # the path starts flat, so no frame is added before it

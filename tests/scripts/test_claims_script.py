@@ -17,7 +17,7 @@ from foldshell.shell.mesh_files import mesh_folded_sheet
 from foldshell.sizing.case import make_case
 from foldshell.sizing.iteration import IterationTask
 from foldshell.sizing.loop import run_loop
-from sizing_case import DESIGN, PANELS, SPAN, STRIP, ZIGZAG, corrugated_sheet, stage
+from sizing_case import DESIGN, PANELS, SPAN, STRIP, ZIGZAG, corrugated_sheet, given, stage
 
 LAYOUT = (ZIGZAG, STRIP, "strip")
 ROW = DESIGN | {"support": "strip", "tags": "table1,supports"}
@@ -27,11 +27,11 @@ SIZING = {"least_thickness": 0.1}
 @cache
 def _sized():
     mesh = mesh_folded_sheet(corrugated_sheet(), "strip", 2)
-    settings = stage("size", **SIZING)
+    settings = given("size", **SIZING)
     case = make_case(mesh, settings)
-    thickness = np.full(PANELS, settings["sizing"]["start_thickness"])
+    thickness = np.full(PANELS, settings.sizing.start_thickness)
     first = case.run(IterationTask(0, SPAN, thickness, {}, {}))
-    result = run_loop(case, SPAN, settings["sizing"])
+    result = run_loop(case, SPAN, settings.sizing)
     return mesh, first, (result.reports[-1], result.arrays)
 
 
@@ -118,11 +118,11 @@ def test_a_run_in_memory_that_ends_elsewhere_shows(study):
 
 def test_mesh_error_of_the_cross_check_stands_in_where_the_mesh_study_has_none(study):
     """Buckling has 2 % and 1 % from the comparison alone, displacement 2 % and 1 % from both."""
-    errors = read_errors(study / "small", stage("study")["crosscheck"])
+    errors = read_errors(study / "small", given("study").crosscheck)
     assert errors["buckling"] == pytest.approx((0.02, 0.01))
     assert errors["displacement"] == pytest.approx((0.02, 0.01))
     (study / "small/crosscheck/comparison.json").write_text("{}")
-    errors = read_errors(study / "small", stage("study")["crosscheck"])
+    errors = read_errors(study / "small", given("study").crosscheck)
     assert errors["buckling"] == (None, None) and errors["displacement"] == (0.02, None)
 
 
@@ -145,8 +145,8 @@ def test_flat_sheet_has_the_volume_of_the_folded_one(tmp_path):
     found = read_json(paths[2])
     assert found["thickness_m"] == pytest.approx(0.075) and found["sides_m"] == [6.0, 6.0]
     assert found["state"] == "ok"
-    settings = stage("size")
-    settings["analysis"] = settings["analysis"] | {"second_order": False}
+    settings = given("size")
+    settings = settings.changed(settings.analysis.changed(second_order=False))
     case = make_case(mesh_folded_sheet(flat, "strip", 2), settings)
     report, _ = case.run(IterationTask(0, SPAN, np.full(PANELS, 0.075), {}, {}))
     first = report["displacement_vertical_max_m"]
@@ -156,20 +156,20 @@ def test_flat_sheet_has_the_volume_of_the_folded_one(tmp_path):
 
 
 def test_variants_change_what_they_say_and_nothing_else():
-    settings = stage("size")
+    settings = given("size")
     for name, words in describe_variants().items():
         changed = change_settings(settings, name)
         different = [
             (group, field)
-            for group in settings
-            for field in settings[group]
-            if settings[group][field] != changed[group][field]
+            for group, values in settings.to_plain().items()
+            for field, value in values.items()
+            if value != changed.to_plain()[group][field]
         ]
         assert len(different) == (0 if name == "base" else 1)
         assert all(field in words for _, field in different)
-    assert stage("size") == settings
+    assert settings.to_plain() == stage("size")
 
 
 def test_a_variant_that_contradicts_the_settings_is_refused():
     with pytest.raises(InputError, match=r"variant start_60: sizing\.start_thickness_mm: 60"):
-        change_settings(stage("size", least_thickness=0.08), "start_60")
+        change_settings(given("size", least_thickness=0.08), "start_60")

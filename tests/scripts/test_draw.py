@@ -7,15 +7,13 @@ from PIL import Image
 import draw
 from figure_cases import COMBINATIONS, write_case
 from foldshell.files.errors import InputError
+from foldshell.settings.make import make_settings
+from foldshell.settings.stages import stage_parameters
 
 NAMES = ("thickness", "classes", "utilization", "displacement", "planarity", "strain",
          "principal_stress_lines", "isolines", "buckling")  # fmt: skip
-SETTINGS = {
-    "combinations": COMBINATIONS,
-    "material": {"youngs_modulus": 31e6, "poissons_ratio": 0.2},
-    "sizing": {"utilization_max": 1.0, "displacement_limit_span_over": 240},
-    "figures": {"width_px": 480, "height_px": 360},
-}
+SETTINGS = stage_parameters(make_settings({}), "size")
+SETTINGS |= {"combinations": COMBINATIONS, "figures": {"width_px": 480, "height_px": 360}}
 
 
 def run(folder, paths, names=NAMES):

@@ -25,7 +25,7 @@ from foldshell.sizing.case import open_case
 from foldshell.sizing.iteration import IterationTask
 from foldshell.workbook.panels import make_panel_grid
 from foldshell.workbook.read_thickness import read_thickness
-from sizing_case import DESIGN, PANELS, SPAN, STRIP, ZIGZAG, corrugated_sheet, stage
+from sizing_case import DESIGN, PANELS, SPAN, STRIP, ZIGZAG, corrugated_sheet, given, stage
 
 BEAM = [0.4, 0.1]
 BEAM_PANELS = 2 * (ZIGZAG - 1)
@@ -49,7 +49,7 @@ def folder(tmp_path_factory):
     loop, here = folder / "sizing", folder / "sizing/00"
     start.main(
         here / "thickness.xlsx", here / "written.json", design="small", **PLACE,
-        start_thickness=0.06, least_thickness=0.04, largest_thickness=1.0, settings_hash="",
+        settings=stage("start", start_thickness=0.06), settings_hash="",
     )  # fmt: skip
     files = here / "analysis.json", here / "analysis.npz"
     analyse.main(
@@ -140,8 +140,8 @@ def test_page_shows_the_edge_beam(folder):
     """Thickness and utilization of sheet and edge beam; planarity and class of panels only."""
     loop = folder / "sizing"
     inputs = [folder / "mesh.npz", folder / "folded.npz", loop / "final.npz", loop / "final.json"]
-    state = read_state("small", *inputs, stage("size")["combinations"], loop / "classes.npz")
-    view = make_viewer_data(view_design(state, stage("size"), SPAN, "miura"))
+    state = read_state("small", *inputs, given("size").combinations, loop / "classes.npz")
+    view = make_viewer_data(view_design(state, given("size"), SPAN, "miura"))
     arrays = unpack_arrays(*pack_arrays(view.arrays))
     beam = slice(PANELS, PANELS + BEAM_PANELS)
     known = read_arrays(loop / "final.npz")["edge_beam_utilization_panel_mean"]
@@ -161,8 +161,8 @@ def test_page_shows_the_edge_beam(folder):
 def test_gradients_of_the_constraints_leave_the_edge_beam_out(folder):
     """d(utilization of the edge beam's worst panel)/dt of a panel against a central difference."""
     limit = 0.3
-    settings = stage("analyse", rule="optimality", utilization_max=limit, utilization_min=0.1)
-    settings = settings | {"analysis": settings["analysis"] | {"second_order": False}}
+    settings = given("analyse", rule="optimality", utilization_max=limit, utilization_min=0.1)
+    settings = settings.changed(settings.analysis.changed(second_order=False))
     case = open_case(folder / "mesh.npz", settings)
     base = np.full(PANELS, 0.004)
 

@@ -9,16 +9,19 @@ import pytest
 
 import fold
 import pattern
+from entry_defaults import fold_parameters, pattern_parameters
 from foldshell.files.errors import InputError
 from foldshell.files.whole import read_arrays
 from foldshell.folding.targets import make_target
 
 
 def _run(folder, kind="miura", **values):
-    pattern.main(folder / "a.fold", design="x", pattern=kind, zigzag=7, strip=8)
+    pattern.main(
+        folder / "a.fold", design="x", **pattern_parameters(pattern=kind, zigzag=7, strip=8)
+    )
     fold.main(
         folder / "a.fold", folder / "f.npz", folder / "f.vtu", folder / "q.json",
-        design="x", **values,
+        design="x", **fold_parameters(**values),
     )  # fmt: skip
     return read_arrays(folder / "f.npz"), json.loads((folder / "q.json").read_text())
 
@@ -81,9 +84,7 @@ def test_border_polylines_can_be_supported(tmp_path):
             assert all(tuple(e) in sides for e in pairwise(chain))
 
 
-def test_unknown_setting_and_mode_are_refused(tmp_path):
-    with pytest.raises(InputError, match="wieghts"):
-        _run(tmp_path, settings={"wieghts": {}})
+def test_an_unknown_mode_is_refused(tmp_path):
     with pytest.raises(InputError, match="fold_mode"):
         _run(tmp_path, fold_mode="soft")
     assert not (tmp_path / "f.npz").exists()

@@ -16,7 +16,7 @@ def written(tmp_path_factory):
     """Files of a study of one small sheet."""
     folder = tmp_path_factory.mktemp("kinematics")
     paths = [folder / name for name in ("k.json", "rules.csv", "k.png", "trajectories.png")]
-    kinematics.main(*paths, densities=((5, 6),), sweeps=SWEEPS)
+    kinematics.main(*paths, sector_angle_deg=60.0, densities=((5, 6),), sweeps=SWEEPS)
     return paths
 
 

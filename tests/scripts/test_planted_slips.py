@@ -25,12 +25,12 @@ from crosscheck.system import SHEAR_FACTOR
 from crosscheck_models import DATA, write_model
 from foldshell.exchange.neutral_model import make_neutral_model
 from foldshell.files.whole import write_json
-from foldshell.loads.cases import Loads
+from foldshell.loads.cases import make_load_cases
 from foldshell.loads.cases import surface_loads as primary_loads
 from foldshell.results import mesh_convergence as mesh_convergence
 from foldshell.settings.make import make_settings
-from foldshell.settings.material import Material
-from foldshell.settings.stages import stage_parameters
+from foldshell.settings.stage import read_stage
+from foldshell.settings.stages import STAGES, stage_parameters
 from foldshell.shell import analysis as primary_analysis
 from foldshell.shell import geometric as primary_geometric
 from foldshell.shell.mesh import edge_polyline_nodes
@@ -95,6 +95,7 @@ def run_primary(inputs, folder, monkeypatch):
         result[:, :, 1] = [0, 0, -inputs.settings["loads"]["superimposed_dead"]]
         return result
 
+    given = read_stage(inputs.settings, *STAGES["crosscheck"])
     with monkeypatch.context() as patch:
         patch.setattr(mesh_convergence, "mesh_folded_sheet", mesh_sheet)
         if inputs.vertical:
@@ -102,8 +103,9 @@ def run_primary(inputs, folder, monkeypatch):
         if inputs.membrane != 1:
             scale_result(patch, primary_geometric, "pull_back", inputs.membrane)
         study = mesh_convergence.study_mesh(
-            folded_corner(), "zigzag", inputs.thickness, 4, Material(**inputs.settings["material"]),
-            Loads(**inputs.settings["loads"]), choose_combinations(inputs.settings),
+            folded_corner(), "zigzag", inputs.thickness, 4, given.material,
+            make_load_cases(given.loads, given.material.unit_weight),
+            choose_combinations(inputs.settings),
         )  # fmt: skip
     # a wrong combination under the right name
     names = choose_combinations(SETTINGS)
@@ -114,7 +116,8 @@ def run_primary(inputs, folder, monkeypatch):
 
 def compare_codes(primary, inputs, folder, monkeypatch, stability=True):
     """The comparison, as rules `neutral_model` and `crosscheck` make it."""
-    description = make_neutral_model("slip", mesh_corner(inputs), inputs.thickness, inputs.settings)
+    given = read_stage(inputs.settings, *STAGES["crosscheck"])
+    description = make_neutral_model("slip", mesh_corner(inputs), inputs.thickness, given)
     # a wrong combination under the right name
     chosen = choose_combinations(inputs.settings).values()
     names = choose_combinations(SETTINGS)
@@ -194,7 +197,7 @@ SLIPS = {
     "1.0 SW for 1.2 SW": (factor("S2", SW=1.0), "reaction_z_kn"),
     "S4 for S2": (wrong_combination, "reaction_x_kn"),
     "N for kN": (newton, "reaction_z_kn"),
-    "plan area for mesh area": (loads("area_basis", "plan"), "reaction_z_kn"),
+    "plan area for mesh area": (loads("area_basis", "plan_abs"), "reaction_z_kn"),
     "whole wind for half": (loads("wind_fraction", 1.0), "reaction_x_kn"),
     "wind along y for x": (wrong_axis, "reaction_x_kn"),
     "no superimposed dead load": (loads("superimposed_dead", 0.0), "reaction_z_kn"),

@@ -22,6 +22,7 @@ from sizing_case import PANELS, corrugated_sheet
 
 SCRIPTS = Path(__file__).parents[2] / "scripts"
 SETTINGS = stage_parameters(make_settings({}), "crosscheck")
+NO_BEAM = {"edge_beam": (0.0, 0.0)}
 
 
 def small_sheet() -> dict[str, np.ndarray]:
@@ -41,7 +42,8 @@ def run_mesh(folder, sheet, support="zigzag", subdivisions=2, **options):
     """Write folded.npz of a sheet, and run the script of the rule mesh on it."""
     write_arrays(folder / "folded.npz", sheet)
     files = [folder / name for name in ("folded.npz", "mesh.npz", "mesh.vtu")]
-    mesh.main(*files, design="small", support=support, subdivisions=subdivisions, **options)
+    mesh.main(*files, design="small", support=support, subdivisions=subdivisions,
+              **NO_BEAM | options)  # fmt: skip
 
 
 def run_neutral_model(folder):
@@ -55,7 +57,8 @@ def run_mesh_convergence(folder, subdivisions=2, **options):
     """Run the script of the rule mesh_convergence; return its study and the primary values."""
     files = [folder / name for name in ("folded.npz", "final.npz", "study.json", "primary.json")]
     mesh_convergence.main(
-        *files, support="zigzag", subdivisions=subdivisions, settings=SETTINGS, **options
+        *files, support="zigzag", subdivisions=subdivisions, settings=SETTINGS,
+        **NO_BEAM | options
     )  # fmt: skip
     return read_json(files[2]), read_json(files[3])
 

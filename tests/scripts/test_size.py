@@ -25,7 +25,7 @@ def loop(tmp_path_factory):
     mesh = write_small_mesh(folder.parent / "mesh.npz")
     start.main(
         folder / "00/thickness.xlsx", folder / "00/written.json", design="small", **PLACE,
-        start_thickness=0.06, least_thickness=0.04, largest_thickness=1.0, settings_hash="",
+        settings=stage("start", start_thickness=0.06), settings_hash="",
     )  # fmt: skip
     found, memory = [], None
     for number in range(31):

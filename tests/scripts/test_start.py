@@ -7,14 +7,15 @@ import start
 from foldshell.files.edits import is_edited
 from foldshell.workbook.panels import make_panel_grid
 from foldshell.workbook.read_thickness import read_thickness
+from sizing_case import stage
 
 
 def _run(folder, **values):
     known = {
-        "design": "small", "zigzag": 4, "strip": 5, "start_thickness": 0.15,
-        "least_thickness": 0.04, "largest_thickness": 1.0, "settings_hash": "0" * 12,
+        "design": "small", "zigzag": 4, "strip": 5, "settings": stage("start", **values),
+        "settings_hash": "0" * 12,
     }  # fmt: skip
-    start.main(folder / "00/thickness.xlsx", folder / "00/written.json", **(known | values))
+    start.main(folder / "00/thickness.xlsx", folder / "00/written.json", **known)
     return folder / "00/thickness.xlsx"
 
 

@@ -10,12 +10,10 @@ import all_designs
 import study_figures
 from figure_cases import COMBINATIONS, write_case
 from foldshell.figures.study_data import NUMBERS
+from foldshell.settings.make import make_settings
+from foldshell.settings.stages import stage_parameters
 
-SETTINGS = {
-    "combinations": COMBINATIONS,
-    "material": {"youngs_modulus": 31e6, "poissons_ratio": 0.2},
-    "sizing": {"utilization_max": 1.0, "displacement_limit_span_over": 240},
-}
+SETTINGS = stage_parameters(make_settings({}), "size") | {"combinations": COMBINATIONS}
 FILES = ("shell/mesh.npz", "folded/folded.npz", "sizing/final.npz", "sizing/final.json",
          "sizing/classes.npz")  # fmt: skip
 

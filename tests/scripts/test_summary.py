@@ -51,7 +51,7 @@ def make_design(name):
         "zigzag": 15,
         "strip": 16,
         "support": "all",
-        "fold_mode": "paper",
+        "fold_mode": "elastic",
         "mesh_subdivisions": 4,
     }
 

@@ -9,20 +9,23 @@ import pytest
 import fold
 import pattern
 import unfold
+from entry_defaults import DRAWINGS, fold_parameters, pattern_parameters
 from foldshell.files.errors import InputError
 from foldshell.files.whole import read_arrays
 from foldshell.pattern.fold_format import read_fold
 
 
 def _run(folder, mode):
-    pattern.main(folder / "a.fold", design="x", surface="hypar", zigzag=8, strip=9)
+    pattern.main(
+        folder / "a.fold", design="x", **pattern_parameters(surface="hypar", zigzag=8, strip=9)
+    )
     fold.main(
         folder / "a.fold", folder / "f.npz", folder / "f.vtu", folder / "q.json",
-        design="x", surface="hypar", fold_mode=mode,
+        design="x", **fold_parameters(surface="hypar", fold_mode=mode),
     )  # fmt: skip
     unfold.main(
         folder / "a.fold", folder / "f.npz", folder / "t.fold", folder / "t.dxf",
-        folder / "t.svg", design="x", fold_mode=mode,
+        folder / "t.svg", design="x", fold_mode=mode, settings=DRAWINGS,
     )  # fmt: skip
     return read_arrays(folder / "f.npz"), read_fold(folder / "t.fold")
 
@@ -52,7 +55,7 @@ def test_rigid_pattern_and_path_are_written(tmp_path):
 
 
 def test_soft_sheet_has_no_rigid_path(tmp_path):
-    folded, sheet = _run(tmp_path, "paper")
+    folded, sheet = _run(tmp_path, "elastic")
     title = json.loads((tmp_path / "t.fold").read_text())["file_title"]
     assert "given pattern" in title and "stretch" in title
     assert "given pattern" in (tmp_path / "t.svg").read_text()
@@ -62,11 +65,11 @@ def test_soft_sheet_has_no_rigid_path(tmp_path):
 
 
 def test_folded_sheet_of_another_design_is_refused(tmp_path):
-    _run(tmp_path, "paper")
-    pattern.main(tmp_path / "b.fold", design="y", zigzag=5, strip=6)
+    _run(tmp_path, "elastic")
+    pattern.main(tmp_path / "b.fold", design="y", **pattern_parameters(zigzag=5, strip=6))
     with pytest.raises(InputError, match="must be 30"):
         unfold.main(
             tmp_path / "b.fold", tmp_path / "f.npz", tmp_path / "u.fold", tmp_path / "u.dxf",
-            tmp_path / "u.svg", design="y",
+            tmp_path / "u.svg", design="y", fold_mode="exact", settings=DRAWINGS,
         )  # fmt: skip
     assert not (tmp_path / "u.fold").exists()

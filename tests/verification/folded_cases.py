@@ -10,9 +10,11 @@ from pathlib import Path
 import numpy as np
 
 from foldshell.checks.utilization import area_percentile, compute_utilization
-from foldshell.loads.cases import Loads
+from foldshell.loads.cases import make_load_cases
+from foldshell.settings.analysis import Analysis
+from foldshell.settings.loads import Loads
 from foldshell.settings.material import Material
-from foldshell.shell.analysis import AnalysisOptions, analyse_shell, build_model
+from foldshell.shell.analysis import analyse_shell, build_model
 from foldshell.shell.mesh_files import mesh_folded_sheet, mesh_from_arrays
 from foldshell.shell.results import largest_downward
 
@@ -63,7 +65,12 @@ def analyse_case(case: FoldedCase, subdivisions: int, order: int | None = None) 
     model = build_model(mesh, arrays["supported_nodes"], CONCRETE.poissons_ratio)
     thickness = np.full(len(mesh.elements), case.thickness)
     result = analyse_shell(
-        model, thickness, CONCRETE, Loads(), COMBINATION, AnalysisOptions(second_order=False)
+        model,
+        thickness,
+        CONCRETE,
+        make_load_cases(Loads(), CONCRETE.unit_weight),
+        COMBINATION,
+        Analysis(second_order=False),
     )
     used = compute_utilization(model, result.displacement, thickness, CONCRETE)
     return {

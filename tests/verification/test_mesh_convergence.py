@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from folded_cases import CASES, COMBINATION, CONCRETE, analyse_case, load_sheet
 
-from foldshell.loads.cases import Loads
+from foldshell.loads.cases import make_load_cases
 from foldshell.results.mesh_convergence import (
     EQUIVALENT,
     REFERENCE,
@@ -12,6 +12,7 @@ from foldshell.results.mesh_convergence import (
     extrapolate,
     study_mesh,
 )
+from foldshell.settings.loads import Loads
 
 
 def test_extrapolation_is_exact_for_its_order():
@@ -25,7 +26,13 @@ def test_limit_and_error_of_a_folded_sheet(case):
     sheet = load_sheet(case.sheet)
     panels = len(sheet["facets"]) // 2
     study = study_mesh(
-        sheet, case.support, np.full(panels, case.thickness), 2, CONCRETE, Loads(), COMBINATION
+        sheet,
+        case.support,
+        np.full(panels, case.thickness),
+        2,
+        CONCRETE,
+        make_load_cases(Loads(), CONCRETE.unit_weight),
+        COMBINATION,
     )
     assert study["subdivisions"] == [2, EQUIVALENT]
     values = study["combinations"]["S2"]

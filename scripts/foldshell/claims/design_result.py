@@ -14,6 +14,7 @@ from foldshell.claims.finding import (
     combine_errors,
     judge_difference,
 )
+from foldshell.settings.sizing import Sizing
 
 
 @dataclass(frozen=True)
@@ -152,13 +153,13 @@ class Comparer:
         return Finding(part, designs, quantity, unit, (greater, lesser), uncertainty, verdict)
 
 
-def make_comparer(sizing: Mapping[str, Any]) -> Comparer:
-    """Return the comparer with the limits of the plain settings of the loop."""
+def make_comparer(sizing: Sizing) -> Comparer:
+    """Return the comparer with the limits of the loop."""
     return Comparer(
-        sizing["volume_change_max_relative"],
-        sizing["displacement_limit_span_over"],
-        sizing["utilization_min"],
-        sizing["thinning_buckling_factor_min"],
+        sizing.volume_change_max_relative,
+        sizing.displacement_limit_span_over,
+        sizing.utilization_min,
+        sizing.thinning_buckling_factor_min,
     )
 
 
@@ -185,7 +186,7 @@ def select(design_results: Iterable[DesignResult], **columns: Any) -> list[Desig
 
 def select_folded(design_results: Iterable[DesignResult]) -> list[DesignResult]:
     """Return the designs folded as in the paper."""
-    return select(design_results, pattern="miura", fold_mode="paper")
+    return select(design_results, pattern="miura", fold_mode="elastic")
 
 
 def group_by_others(

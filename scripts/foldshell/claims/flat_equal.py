@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from foldshell.claims.measures import Layout, facet_areas, measure_state
+from foldshell.settings.stage import StageSettings
 from foldshell.shell.mesh_files import mesh_folded_sheet
 from foldshell.sizing.case import AnalysisCase, make_case
 from foldshell.sizing.iteration import IterationTask
@@ -18,7 +19,7 @@ def analyse_flat(
     volume: float,
     span: float,
     subdivisions: int,
-    settings: Mapping[str, Any],
+    settings: StageSettings,
 ) -> dict[str, Any]:
     """Return sides (m), thickness (m) and measures of a flat sheet of `volume` (m3), one thickness.
 
@@ -36,7 +37,7 @@ def analyse_flat(
     finer = mesh_folded_sheet(dict(sheet), layout.support, 2 * subdivisions)
     fine = _first_order(make_case(finer, settings), thickness, span)
     measures = measure_state(
-        mesh, layout, report, fields, settings["combinations"], settings["sizing"]["measure"]
+        mesh, layout, report, fields, settings.combinations, settings.sizing.measure
     )
     return {
         "sides_m": np.ptp(sheet["vertices"], axis=0)[:2].tolist(),
@@ -52,6 +53,6 @@ def analyse_flat(
 
 def _first_order(case: AnalysisCase, thickness: np.ndarray, span: float) -> float:
     """Return the largest downward displacement (m) of first order."""
-    linear = replace(case, options=replace(case.options, second_order=False))
+    linear = replace(case, options=case.options.changed(second_order=False))
     report, _ = linear.run(IterationTask(0, span, thickness, {}, {}))
     return report["displacement_vertical_max_m"]

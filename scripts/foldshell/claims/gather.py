@@ -8,6 +8,7 @@ from foldshell.claims.design_result import DesignResult
 from foldshell.claims.read import read_design_result, read_fold, read_variant
 from foldshell.files.errors import InputError
 from foldshell.files.whole import read_json
+from foldshell.settings.stage import StageSettings
 
 Rows = Sequence[Mapping[str, Any]]
 
@@ -24,7 +25,7 @@ class Sources(NamedTuple):
 
 
 def read_sources(
-    results: Path, designs: Mapping[str, Rows], variants: Sequence[str], settings: Mapping[str, Any]
+    results: Path, designs: Mapping[str, Rows], variants: Sequence[str], settings: StageSettings
 ) -> Sources:
     """Read designs in full, folds, kinematics, flat sheets and runs with other settings.
 

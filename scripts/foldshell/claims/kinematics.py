@@ -155,7 +155,7 @@ def judge_foldability(design_results: Sequence[DesignResult]) -> Claim:
         for name, quantities in RESPECTED.items():
             worst = max(quantities, key=lambda quantity: one.quality[quantity])
             value = one.quality[worst]
-            part = name if mode == "paper" else f"{name}, mode {mode}"
+            part = name if mode == "elastic" else f"{name}, mode {mode}"
             true = value <= RESPECTED_LIMIT
             findings.append(state_fact(part, one.name, worst, value, RESPECTED_LIMIT, true))
             if part != name and part not in aside:

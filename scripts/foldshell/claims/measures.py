@@ -6,6 +6,8 @@ from typing import Any
 
 import numpy as np
 
+from foldshell.settings.loads import Combinations
+
 SCALARS = (
     "utilization_mean",
     "utilization_max",
@@ -43,7 +45,7 @@ def measure_state(
     layout: Layout,
     report: Mapping[str, Any],
     fields: Mapping[str, np.ndarray],
-    combinations: Mapping[str, Mapping[str, Any]],
+    combinations: Combinations,
     measure: str,
 ) -> dict[str, Any]:
     """Return all measures of an analysed state; those of an answer it did not give are None.
@@ -51,9 +53,9 @@ def measure_state(
     `mesh`, `report` and `fields` are the contents of mesh.npz, analysis.json and analysis.npz,
     `combinations` has the groups strength and deflection.
     """
-    count = len(combinations["deflection"])
+    count = len(combinations.deflection)
     return {
-        **measure_report(report, combinations["strength"]),
+        **measure_report(report, combinations.strength),
         **measure_fields(mesh, layout, fields, measure),
         **measure_edge_displacement(mesh, layout, fields.get("translations"), count),
     }

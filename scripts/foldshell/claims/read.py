@@ -12,6 +12,8 @@ from foldshell.claims.measures import Layout, measure_depth, measure_state
 from foldshell.files.whole import read_arrays, read_json
 from foldshell.pattern.angles import flat_foldability_residual
 from foldshell.pattern.grid import build_grid
+from foldshell.settings.crosscheck import Crosscheck
+from foldshell.settings.stage import StageSettings
 
 Errors = dict[str, tuple[float | None, float | None]]
 
@@ -35,7 +37,7 @@ def read_fold(row: Mapping[str, Any], folder: str | Path) -> DesignResult:
 
 
 def read_design_result(
-    row: Mapping[str, Any], folder: str | Path, settings: Mapping[str, Any]
+    row: Mapping[str, Any], folder: str | Path, settings: StageSettings
 ) -> tuple[DesignResult, DesignResult]:
     """Read the final state of a design, and its state at the start, of one thickness."""
     folder = Path(folder)
@@ -49,15 +51,15 @@ def read_design_result(
             make_layout(row),
             report,
             fields,
-            settings["combinations"],
-            settings["sizing"]["measure"],
+            settings.combinations,
+            settings.sizing.measure,
         )
         states.append(replace(fold, values={**fold.values, **measures}))
         if path.name == "final" and "utilization_panel_mean" in fields and "depth" in fold.values:
             planarity = read_arrays(folder / "folded/folded.npz")["planarity"]
             panels = np.stack([planarity, fields["utilization_panel_mean"]])
             states[0] = replace(states[0], panels=panels)
-    errors = read_errors(folder, settings["crosscheck"])
+    errors = read_errors(folder, settings.crosscheck)
     return replace(states[0], errors=errors), replace(states[1], errors=errors)
 
 
@@ -66,11 +68,11 @@ def read_variant(design_result: DesignResult, report: Mapping[str, Any]) -> Desi
     return replace(design_result, values={**design_result.values, **report["measures"]})
 
 
-def read_errors(folder: Path, chosen: Mapping[str, Any]) -> Errors:
+def read_errors(folder: Path, chosen: Crosscheck) -> Errors:
     """Read relative mesh error and cross-check difference of the compared combinations."""
     study = read_json(folder / "mesh_convergence.json")
     comparison = read_json(folder / "crosscheck/comparison.json").get("quantities") or {}
-    strength, deflection = chosen["strength"], chosen["deflection"]
+    strength, deflection = chosen.strength, chosen.deflection
 
     def pick(combination: str, quantity: str) -> tuple[float | None, float | None]:
         """Return relative mesh error and cross-check difference of one quantity."""

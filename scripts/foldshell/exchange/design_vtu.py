@@ -7,7 +7,6 @@ strength and the deflection combinations end in _max and _min. What an unstable 
 left out.
 """
 
-from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -15,7 +14,7 @@ import numpy as np
 from foldshell.exchange.vtu import write_vtu
 from foldshell.exchange.vtu_legend import describe_fields, known_factors
 from foldshell.results.combination_fields import CombinationFields, evaluate_combinations
-from foldshell.results.design_view import DesignView, Elasticity
+from foldshell.results.design_view import DesignView
 from foldshell.results.fields import (
     cell_thickness,
     choose_deflection,
@@ -25,6 +24,7 @@ from foldshell.results.fields import (
 from foldshell.results.isolines import utilization_isolines
 from foldshell.results.principal_stress_lines import split_lines
 from foldshell.results.state import DesignState
+from foldshell.settings.field import Factors
 from foldshell.settings.material import Material
 from foldshell.shell.mesh import edge_polyline_nodes
 
@@ -119,9 +119,8 @@ def point_fields(state: DesignState) -> dict[str, np.ndarray]:
 def write_design_vtu(
     path: str | Path,
     state: DesignState,
-    elasticity: Elasticity,
-    material: Material | None = None,
-    combinations: Mapping[str, Mapping[str, float]] | None = None,
+    material: Material,
+    combinations: Factors | None = None,
 ) -> None:
     """Write design.vtu: result cells as triangles, nodes in m.
 
@@ -130,7 +129,7 @@ def write_design_vtu(
     """
     fields = cell_fields(state)
     if state.usable:
-        found = evaluate_combinations(state, elasticity, material)
+        found = evaluate_combinations(state, material)
         fields |= force_fields(state, found) | combination_cell_fields(state, found)
     points = point_fields(state)
     words = describe_fields(state, [*points, *fields], combinations or {})

@@ -5,6 +5,8 @@ from typing import Any
 
 import numpy as np
 
+from foldshell.settings.stage import StageSettings
+
 FORMAT = "foldshell-neutral-model 1"
 
 EDGE_BEAM_FORMAT = "foldshell-neutral-model 2"
@@ -15,7 +17,7 @@ def make_neutral_model(
     design: str,
     mesh: Mapping[str, np.ndarray],
     panel_thickness: np.ndarray,
-    settings: Mapping[str, Any],
+    settings: StageSettings,
 ) -> dict[str, Any]:
     """Return the neutral model as plain data in kN, m and kPa.
 
@@ -29,10 +31,10 @@ def make_neutral_model(
     ----------
     mesh : arrays of mesh.npz
     panel_thickness : (P,) m, of the sized panels
-    settings : plain parameters of the stage `crosscheck`
+    settings : those of the stage `crosscheck`
     """
-    material, loads = settings["material"], settings["loads"]
-    groups, compare = settings["combinations"], settings["crosscheck"]
+    material, loads = settings.material, settings.loads
+    compare = settings.crosscheck
     fixed = mesh.get("fixed_thickness", np.empty(0))
     sized = len(panel_thickness)
     edge_beam_panels = list(range(sized, sized + len(fixed)))
@@ -46,21 +48,21 @@ def make_neutral_model(
         **({"self_weight_only_panels": edge_beam_panels} if edge_beam_panels else {}),
         "supported_edges": mesh["support_pairs"].tolist(),
         "material": {
-            "youngs_modulus_kpa": material["youngs_modulus"],
-            "poissons_ratio": material["poissons_ratio"],
-            "unit_weight_kn_m3": material["unit_weight"],
-            "strength_kpa": material["strength"],
-            "strength_tension_kpa": material["strength_tension"],
-            "criterion": material["criterion"],
+            "youngs_modulus_kpa": material.youngs_modulus,
+            "poissons_ratio": material.poissons_ratio,
+            "unit_weight_kn_m3": material.unit_weight,
+            "strength_kpa": material.strength,
+            "strength_tension_kpa": material.strength_tension,
+            "criterion": material.criterion,
         },
         "loads_kn_m2": {
-            "SDL": loads["superimposed_dead"],
-            "LL": loads["live"],
-            "W": loads["wind"],
-            "wind_fraction": loads["wind_fraction"],
+            "SDL": loads.superimposed_dead,
+            "LL": loads.live,
+            "W": loads.wind,
+            "wind_fraction": loads.wind_fraction,
             "dead_side": "sheet",
         },
-        "area_basis": loads["area_basis"],
-        "combinations": {**groups["strength"], **groups["deflection"]},
-        "compare": {"strength": compare["strength"], "deflection": compare["deflection"]},
+        "area_basis": loads.area_basis,
+        "combinations": settings.combinations.all,
+        "compare": {"strength": compare.strength, "deflection": compare.deflection},
     }

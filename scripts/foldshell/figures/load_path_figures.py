@@ -72,7 +72,7 @@ def _by_force(segments: np.ndarray, force: np.ndarray, large: float) -> list[Lin
 
 def specify_isolines(view: DesignView) -> FigureSpec:
     """Lines of equal utilization; that of the limit is thick and red."""
-    state, limit = view.state, view.limits.utilization_max
+    state, limit = view.state, view.sizing.utilization_max
     if state.utilization is None:
         return specify_nothing(view, "Utilization isolines", "no utilization")
     found = utilization_isolines(view)

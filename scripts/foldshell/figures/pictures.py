@@ -100,7 +100,7 @@ def specify_classes(view: DesignView) -> FigureSpec:
 
 def specify_utilization(view: DesignView) -> FigureSpec:
     """Cells coloured by their largest utilization; what is above the limit stands out."""
-    state, limit = view.state, view.limits.utilization_max
+    state, limit = view.state, view.sizing.utilization_max
     values = state.utilization
     if values is None:
         return specify_nothing(view, "Utilization", "no utilization")
@@ -134,7 +134,7 @@ def specify_displacement(view: DesignView) -> FigureSpec:
     moved = state.displacement_at_nodes(name)
     factor = exaggeration(moved, view.span)
     down = -1e3 * moved[:, 2]
-    limit = 1e3 * view.span / view.limits.displacement_limit_span_over
+    limit = 1e3 * view.span / view.sizing.displacement_limit_span_over
     order = "" if state.report.get("state") in ("ok", None) else "first order, "
     facts = (
         f"{name}: {order}at most {down.max():.1f} mm down (limit {limit:.1f} mm); "

@@ -11,6 +11,8 @@ import numpy as np
 from foldshell.files.errors import InputError
 from foldshell.results.fields import cell_area
 from foldshell.results.state import DesignState, read_state
+from foldshell.settings.design import SUPPORTS, SURFACES
+from foldshell.settings.loads import Combinations
 from foldshell.settings.stages import FINAL_STATE
 
 NUMBERS = ("span_m", "height_m", "zigzag", "strip", "volume_per_area_m", "utilization_mean",
@@ -60,7 +62,7 @@ def read_summary(path: str | Path) -> list[StudyDesign]:
 
 
 def read_states(
-    path: str | Path, results: str | Path, combinations: Mapping[str, Any]
+    path: str | Path, results: str | Path, combinations: Combinations
 ) -> Iterator[tuple[StudyDesign, DesignState]]:
     """Yield each design of summary.csv with its final state, from its folder in `results`."""
     for design in read_summary(path):

@@ -6,11 +6,10 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from foldshell.folding.exact import ACCEPTED, ExactWeights, Solution, allow_rounding, solve_exactly
+from foldshell.folding.exact import ACCEPTED, Solution, allow_rounding, solve_exactly
 from foldshell.folding.intersections import find_intersections
 from foldshell.folding.placement import measure_rounding
 from foldshell.folding.quality import count_flipped, find_convex
-from foldshell.folding.settings import FoldSettings
 from foldshell.folding.shape import Shape
 from foldshell.folding.soft import fold_softly
 from foldshell.folding.terms import Target
@@ -18,6 +17,7 @@ from foldshell.pattern.angles import measure_folds
 from foldshell.pattern.miura import size_miura
 from foldshell.pattern.sheet import Sheet, make_miura_sheet
 from foldshell.pattern.unfold import Assembly, find_overlap, follow_path, unfold_panels
+from foldshell.settings.fold import ExactWeights, Fold
 
 CLOSURE_ROUNDING = 1e4  # steps of the written coordinates that a closure may be off by
 OTHER_ANGLES_DEG = (70.0, 65.0, 75.0)  # starts to try when the given sector angle fails
@@ -40,17 +40,17 @@ class Attempt:
     faults: tuple[str, ...]
 
 
-def fold_exactly(sheet: Sheet, target: Target, settings: FoldSettings) -> Shape:
+def fold_exactly(sheet: Sheet, target: Target, settings: Fold) -> Shape:
     """Exact mode: attracted vertices on the target, planar panels, developable."""
     return _fold_truly(sheet, target, settings, rigid=False)
 
 
-def fold_rigidly(sheet: Sheet, target: Target, settings: FoldSettings) -> Shape:
+def fold_rigidly(sheet: Sheet, target: Target, settings: Fold) -> Shape:
     """Rigid mode: planar, developable and flat-foldable; as near the target as that allows."""
     return _fold_truly(sheet, target, settings, rigid=True)
 
 
-def _fold_truly(sheet: Sheet, target: Target, settings: FoldSettings, rigid: bool) -> Shape:
+def _fold_truly(sheet: Sheet, target: Target, settings: Fold, rigid: bool) -> Shape:
     attempts = []
     firm = replace(settings.exact, margin=FIRM_MARGIN * settings.exact.margin)
     tries = [(start, settings.exact) for start in list_starts(sheet, target)]
@@ -82,7 +82,7 @@ def list_starts(sheet: Sheet, target: Target) -> Iterator[Sheet]:
 
 
 def _attempt(
-    sheet: Sheet, target: Target, settings: FoldSettings, weights: ExactWeights, rigid: bool
+    sheet: Sheet, target: Target, settings: Fold, weights: ExactWeights, rigid: bool
 ) -> Attempt:
     soft = fold_softly(sheet, target, settings)
     solution = solve_exactly(sheet, target, settings.attract, soft.vertices, weights, rigid)

@@ -24,35 +24,18 @@ from foldshell.folding.levenberg import minimise_terms
 from foldshell.folding.normal_equations import NormalEquations, NotPositiveDefinite
 from foldshell.folding.placement import measure_rounding, round_as_written
 from foldshell.folding.problem import (
-    Weights,
     attracted_vertices,
     build_terms,
     reference_length,
 )
 from foldshell.folding.terms import Attraction, Target, Term
 from foldshell.pattern.sheet import Sheet
+from foldshell.settings.fold import ExactWeights, FoldWeights
 
 TOLERANCE = 1e-12  # of the constraints, non-dimensional, at which no further step is needed
 ACCEPTED = 1e-9  # constraint residual and closures of true origami
 ROUNDING = 64  # steps of the written coordinates that a residual may be off by
 CORNER_MARGIN, FOLD_MARGIN = math.radians(8), math.radians(5)
-
-
-@dataclass(frozen=True)
-class ExactWeights:
-    """Weights of the squared residuals while the constraints are tightened.
-
-    `attraction` is that of rigid mode; `margin` holds corners convex and folds their own way;
-    `plan_edge` is larger than in paper mode because the pattern may change its size.
-    """
-
-    stretch: float = 0.02
-    hinge: float = 0.01
-    neutral_fold: float = 0.01
-    plan_edge: float = 0.1
-    fairness: float = 0.1
-    attraction: float = 100.0
-    margin: float = 1.0
 
 
 @dataclass(frozen=True)
@@ -165,7 +148,7 @@ def _constraints(
 def _soft_terms(
     sheet: Sheet, target: Target, attract: str, weights: ExactWeights, rigid: bool
 ) -> list[Term]:
-    paper = Weights(
+    alike = FoldWeights(
         stretch=weights.stretch,
         hinge=weights.hinge,
         hinge_steep=weights.hinge,
@@ -175,7 +158,7 @@ def _soft_terms(
         plan_edge=weights.plan_edge,
         plan_edge_steep=weights.plan_edge,
     )
-    stretch, creases, neutral, attraction, edges = build_terms(sheet, target, attract, paper)
+    stretch, creases, neutral, attraction, edges = build_terms(sheet, target, attract, alike)
     terms: list[Term] = [stretch, creases, neutral, edges]
     chains = find_chains(sheet.grid)
     if len(chains):

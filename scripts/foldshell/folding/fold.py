@@ -11,11 +11,14 @@ from foldshell.folding.isometric import fold_isometrically
 from foldshell.folding.placement import place_vertices, round_as_written
 from foldshell.folding.problem import attracted_vertices
 from foldshell.folding.quality import Quality, measure_quality, measure_start_coverage
-from foldshell.folding.settings import MODES, FoldSettings
 from foldshell.folding.shape import Shape
 from foldshell.folding.soft import fold_softly
 from foldshell.folding.terms import Target, measure_distances
 from foldshell.pattern.sheet import Sheet
+from foldshell.settings.fold import Fold, FoldLimits
+
+# 2e-3 is what rigid domes are to reach; isometric saddles come nearer, or something went wrong.
+SADDLE_RMS = 1.6e-3
 
 WELL_WITHIN = 0.05  # of the limit on the rms distance
 
@@ -38,15 +41,15 @@ class FoldResult:
     seconds: float
 
 
-def fold_sheet(sheet: Sheet, target: Target, mode: str, settings: FoldSettings) -> FoldResult:
+def fold_sheet(sheet: Sheet, target: Target, mode: str, settings: Fold) -> FoldResult:
     """Fold `sheet` so that its lowest or highest vertices lie on `target`.
 
-    mode: paper (soft springs), isometric (hard lengths), exact (true crease pattern), rigid
+    mode: elastic (soft springs), isometric (hard lengths), exact (true crease pattern), rigid
     (exact and rigidly foldable). Smooth and flat sheets are only laid out.
     """
     start = time.perf_counter()
-    if mode not in MODES:
-        raise ValueError(f"fold_mode {mode!r}: must be one of {', '.join(MODES)}")
+    if mode not in SOLVERS:
+        raise ValueError(f"fold_mode {mode!r}: must be one of {', '.join(SOLVERS)}")
     solve = LAYOUTS.get(sheet.kind) or SOLVERS[mode]
     shape = solve(sheet, target, settings)
     shape = replace(shape, vertices=round_as_written(shape.vertices, target))
@@ -61,13 +64,18 @@ def fold_sheet(sheet: Sheet, target: Target, mode: str, settings: FoldSettings) 
     )
     start_coverage = measure_start_coverage(sheet, target, settings.attract) if folded else 0.0
     least = settings.limits.plan_coverage * start_coverage
-    state, reason = judge_shape(shape, quality, settings.limits.allowed_rms(mode), least, mode)
+    state, reason = judge_shape(shape, quality, allowed_rms(settings.limits, mode), least, mode)
     reach = target.measure_reach(shape.vertices[attracted]) if folded else 0.0
     if reach:
         shape = replace(shape, residuals={**shape.residuals, "beyond_border_m": reach})
     seconds = time.perf_counter() - start
     placed = replace(shape, vertices=place_vertices(shape.vertices, target))
     return FoldResult(placed, attracted, distances, quality, state, reason, seconds)
+
+
+def allowed_rms(limits: FoldLimits, mode: str) -> float:
+    """rms distance over span that `mode` may leave: an isometric saddle at most SADDLE_RMS."""
+    return min(limits.rms_over_span, SADDLE_RMS) if mode == "isometric" else limits.rms_over_span
 
 
 def judge_shape(
@@ -92,11 +100,11 @@ def judge_shape(
         distance = f"rms distance {quality.rms_over_span:.2e} span, allowed {rms_limit:g}"
         return "not_reached", "; ".join([distance, shape.reason, *faults])
     # Where the iterations of soft springs end well within the limits, they have done their work.
-    ended_well = mode == "paper" and quality.rms_over_span <= WELL_WITHIN * rms_limit
+    ended_well = mode == "elastic" and quality.rms_over_span <= WELL_WITHIN * rms_limit
     return ("ok" if shape.converged or ended_well else "not_reached"), shape.reason
 
 
-def lay_smooth(sheet: Sheet, target: Target, settings: FoldSettings) -> Shape:
+def lay_smooth(sheet: Sheet, target: Target, settings: Fold) -> Shape:
     """Lay the panel grid on the target itself by arc length of its central sections."""
     del settings
     centred = sheet.flat - sheet.flat.mean(axis=0)
@@ -107,17 +115,17 @@ def lay_smooth(sheet: Sheet, target: Target, settings: FoldSettings) -> Shape:
     return Shape(vertices, vertices, 0, True, "laid on the target surface")
 
 
-def lay_flat(sheet: Sheet, target: Target, settings: FoldSettings) -> Shape:
+def lay_flat(sheet: Sheet, target: Target, settings: Fold) -> Shape:
     """Centre the unfolded sheet on the plan, at height 0."""
     del target, settings
     middle = 0.5 * (sheet.flat.min(axis=0) + sheet.flat.max(axis=0))
     return Shape(sheet.flat - middle, sheet.flat, 0, True, "left unfolded")
 
 
-Solver = Callable[[Sheet, Target, FoldSettings], Shape]
+Solver = Callable[[Sheet, Target, Fold], Shape]
 LAYOUTS: dict[str, Solver] = {"smooth": lay_smooth, "flat": lay_flat}
 SOLVERS: dict[str, Solver] = {
-    "paper": fold_softly,
+    "elastic": fold_softly,
     "isometric": fold_isometrically,
     "exact": fold_exactly,
     "rigid": fold_rigidly,

@@ -24,7 +24,6 @@ from foldshell.folding.normal_equations import NormalEquations
 from foldshell.folding.placement import round_as_written
 from foldshell.folding.problem import (
     STEEP,
-    Weights,
     attracted_vertices,
     build_terms,
     edge_lengths,
@@ -36,12 +35,12 @@ from foldshell.folding.quality import (
     measure_start_coverage,
     root_mean_square,
 )
-from foldshell.folding.settings import FoldSettings
 from foldshell.folding.shape import Shape
 from foldshell.folding.terms import Stretch, Target, Term, measure_distances
 from foldshell.pattern.angles import measure_folds
 from foldshell.pattern.miura import size_miura
 from foldshell.pattern.sheet import Sheet, make_miura_sheet
+from foldshell.settings.fold import Fold, FoldWeights
 
 STRAIN = 1e-12
 # (stretch, attraction, share of the bending weights, fairness): from the unstretched planar
@@ -81,7 +80,7 @@ class Attempt:
     crumpled: bool
 
 
-def fold_isometrically(sheet: Sheet, target: Target, settings: FoldSettings) -> Shape:
+def fold_isometrically(sheet: Sheet, target: Target, settings: Fold) -> Shape:
     """Bend the planar rest state towards the target, harden the lengths, project onto r = 0.
 
     On a steep target the sheets of `list_sheets` are tried in place of the given one, until one
@@ -171,7 +170,7 @@ def _make_steep_sheet(
 def _attempt(
     sheet: Sheet,
     target: Target,
-    settings: FoldSettings,
+    settings: Fold,
     stages: tuple[tuple[float, ...], ...],
     least: float,
 ) -> Attempt:
@@ -205,7 +204,7 @@ def _attempt(
     return Attempt(sheet, solution, distance, _is_crumpled(solution.vertices, sheet, target, least))
 
 
-def _slide(sheet: Sheet, target: Target, settings: FoldSettings, vertices: np.ndarray) -> Minimum:
+def _slide(sheet: Sheet, target: Target, settings: Fold, vertices: np.ndarray) -> Minimum:
     """Come nearer to the target without leaving the rest lengths.
 
     Each step (V, 3) is along the lengths to first order, then projected back onto them. Stages
@@ -242,7 +241,7 @@ def _lay_planar(sheet: Sheet, target: Target) -> np.ndarray:
 def _stage_terms(
     sheet: Sheet,
     target: Target,
-    settings: FoldSettings,
+    settings: Fold,
     stretch: float,
     attraction: float,
     bending: float,
@@ -251,7 +250,7 @@ def _stage_terms(
 ) -> list[Term]:
     """Terms of one stage; folds are held to their side with the weight `folds`, or the lengths'."""
     given = settings.weights
-    weights = Weights(
+    weights = FoldWeights(
         stretch=stretch,
         hinge=bending * given.hinge,
         hinge_steep=bending * given.hinge,

@@ -1,6 +1,4 @@
-"""The folding problem in paper mode: start, weights, terms."""
-
-from dataclasses import dataclass
+"""The folding problem in elastic mode: start, weights, terms."""
 
 import numpy as np
 
@@ -8,26 +6,9 @@ from foldshell.folding.terms import Attraction, Hinge, PlanEdge, Stretch, Target
 from foldshell.pattern.angles import measure_hinges
 from foldshell.pattern.grid import find_hinges
 from foldshell.pattern.sheet import Sheet
+from foldshell.settings.fold import FoldWeights
 
 STEEP = 0.8  # height / span from which folds and plan edges are held more firmly
-
-
-@dataclass(frozen=True)
-class Weights:
-    """Weights of the squared, non-dimensional residuals; `_steep` ones from STEEP on.
-
-    The steep ones were chosen by trial on the study's own 28 m / 28 m designs: neighbouring
-    values leave one to four of those 25 short of their figures (hinge_steep 0.1: about ten).
-    """
-
-    stretch: float = 10.0
-    hinge: float = 0.01
-    hinge_steep: float = 0.03
-    neutral_fold: float = 0.01
-    neutral_fold_steep: float = 0.04
-    attraction: float = 100.0
-    plan_edge: float = 0.03
-    plan_edge_steep: float = 0.05
 
 
 def attracted_vertices(sheet: Sheet, attract: str) -> np.ndarray:
@@ -67,7 +48,7 @@ def place_sheet(sheet: Sheet, target: Target, attract: str) -> np.ndarray:
     return base + height[:, None] * target.find_normals(x, y)
 
 
-def build_terms(sheet: Sheet, target: Target, attract: str, weights: Weights) -> list[Term]:
+def build_terms(sheet: Sheet, target: Target, attract: str, weights: FoldWeights) -> list[Term]:
     """Stretch, crease hinges, neutral folds, attraction, plan edges; in that order."""
     grid = sheet.grid
     hinges = find_hinges(grid.facets, grid.edges)

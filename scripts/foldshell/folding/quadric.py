@@ -5,6 +5,8 @@ from typing import TypeVar
 
 import numpy as np
 
+from foldshell.settings.design import SURFACES
+
 Length = TypeVar("Length", float, np.ndarray)
 
 
@@ -127,9 +129,6 @@ def _arc_length(x: Length, bend: float) -> Length:
     if bend == 0:
         return x
     return (x * np.sqrt(1 + slope**2) + np.arcsinh(slope) / (2 * bend)) / 2
-
-
-SURFACES = ("paraboloid", "hypar", "hypar_twist", "arch", "arch_strip")
 
 
 def make_quadric(name: str, span: float, height: float) -> Quadric:

@@ -1,4 +1,4 @@
-"""Paper mode: soft springs, as a physics engine would have it."""
+"""Elastic mode: soft springs, as a physics engine would have it."""
 
 from collections.abc import Sequence
 
@@ -8,18 +8,18 @@ from foldshell.folding.levenberg import Minimum, minimise_terms
 from foldshell.folding.placement import round_as_written
 from foldshell.folding.problem import build_terms, place_sheet
 from foldshell.folding.projections import average_projections
-from foldshell.folding.settings import FoldSettings
 from foldshell.folding.shape import Shape
 from foldshell.folding.terms import Target, Term
 from foldshell.pattern.sheet import Sheet
+from foldshell.settings.fold import Fold
 
 # Averaged projections creep: many more iterations, judged over a window of them.
 EXPLICIT_ITERATIONS, EXPLICIT_TOLERANCE = 50, 10.0
 SETTLED = 1e-2  # last fall of the cost, of itself, from which the shape hardly changes any more
 
 
-def fold_softly(sheet: Sheet, target: Target, settings: FoldSettings) -> Shape:
-    """Paper mode: minimise the weighted squares of stretch, hinges, attraction, plan edge."""
+def fold_softly(sheet: Sheet, target: Target, settings: Fold) -> Shape:
+    """Elastic mode: minimise the weighted squares of stretch, hinges, attraction, plan edge."""
     terms = build_terms(sheet, target, settings.attract, settings.weights)
     start = place_sheet(sheet, target, settings.attract)
     minimum = minimise_softly(terms, start, settings, target.span)
@@ -32,7 +32,7 @@ def fold_softly(sheet: Sheet, target: Target, settings: FoldSettings) -> Shape:
 
 
 def minimise_softly(
-    terms: Sequence[Term], start: np.ndarray, settings: FoldSettings, span: float
+    terms: Sequence[Term], start: np.ndarray, settings: Fold, span: float
 ) -> Minimum:
     """argmin over vertices (V, 3) of 1/2 sum r2 by the engine of the settings, from `start`.
 

@@ -4,7 +4,8 @@ import numpy as np
 
 from foldshell.files.meshes.read import is_mesh_file
 from foldshell.folding.mesh_target import MeshTarget, read_mesh_target
-from foldshell.folding.quadric import SURFACES, Quadric, make_quadric
+from foldshell.folding.quadric import Quadric, make_quadric
+from foldshell.settings.design import SURFACES
 
 
 def make_target(surface: str, span_m: float, height_m: float) -> Quadric | MeshTarget:
@@ -25,6 +26,3 @@ def measure_turning(target: Quadric | MeshTarget) -> float:
     normals = target.find_normals(np.zeros(2), y)
     tilt = np.arctan2(normals[:, 1], normals[:, 2])
     return float(tilt[1] - tilt[0])
-
-
-__all__ = ["SURFACES", "make_target", "measure_turning"]

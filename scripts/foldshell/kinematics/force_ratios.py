@@ -18,11 +18,11 @@ from foldshell.folding.problem import (
     reference_length,
 )
 from foldshell.folding.quality import count_flipped, measure_planarity, root_mean_square
-from foldshell.folding.settings import FoldSettings
 from foldshell.folding.soft import minimise_softly
 from foldshell.folding.terms import Stretch, Target, Term
 from foldshell.pattern.angles import measure_folds
 from foldshell.pattern.sheet import Sheet
+from foldshell.settings.fold import Fold
 
 PANELS = ("quadrilaterals", "triangles")
 REACHED = 1e-3  # rms distance over span
@@ -59,7 +59,7 @@ class Trial:
 def sweep_force_ratios(
     sheet: Sheet,
     target: Target,
-    settings: FoldSettings,
+    settings: Fold,
     attractions: Sequence[float],
     panels: Sequence[float],
 ) -> Iterator[Trial]:
@@ -73,12 +73,12 @@ def sweep_force_ratios(
 def try_force_ratios(
     sheet: Sheet,
     target: Target,
-    settings: FoldSettings,
+    settings: Fold,
     panels: str,
     attraction: float,
     panel: float,
 ) -> Trial:
-    """Fold by the given strengths, stretch, hinges and engine as in paper mode."""
+    """Fold by the given strengths, stretch, hinges and engine as in elastic mode."""
     terms = _build_terms(sheet, target, settings, panels, attraction, panel)
     start = place_sheet(sheet, target, settings.attract)
     minimum = minimise_softly(terms, start, settings, target.span)
@@ -102,7 +102,7 @@ def try_force_ratios(
 def _build_terms(
     sheet: Sheet,
     target: Target,
-    settings: FoldSettings,
+    settings: Fold,
     panels: str,
     attraction: float,
     panel: float,

@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
-from foldshell.folding.settings import FoldSettings
 from foldshell.folding.targets import make_target
 from foldshell.kinematics.force_ratios import sweep_force_ratios
 from foldshell.kinematics.mechanism import (
@@ -16,6 +15,7 @@ from foldshell.kinematics.mechanism import (
 )
 from foldshell.pattern.design import design_sheet
 from foldshell.pattern.miura import Miura, folded_vertices, rest_fold_angle
+from foldshell.settings.fold import Fold
 
 FOLD_ANGLES_DEG = (10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0)
 PANEL_STIFFNESSES = (1.0, 10.0)  # over that of creases
@@ -79,9 +79,9 @@ def study_sheets(sector_angle: float, densities: Sequence[tuple[int, int]]) -> l
 
 def sweep_surfaces(sector_angle: float, sweeps: Sweeps) -> list[dict[str, Any]]:
     """Fold quadrilaterals and triangles by every pair of strengths, by either engine in turn."""
-    explicit = FoldSettings(engine="averaged_projections", max_iterations=10)
+    explicit = Fold(engine="averaged_projections", max_iterations=10)
     engines = [
-        (sweeps.attractions, sweeps.panels, FoldSettings()),
+        (sweeps.attractions, sweeps.panels, Fold()),
         (sweeps.explicit_attractions, sweeps.explicit_panels, explicit),
     ]
     rows = []

@@ -1,57 +1,89 @@
 """Load cases as surface loads, and their combinations (Table 2 of Tsiamis et al. 2018)."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
-LOAD_CASES = ("SW", "SDL", "LL", "WX", "WY")
-"""Self-weight, superimposed dead load, live load, wind along x and along y."""
+from foldshell.settings.field import Factors
+from foldshell.settings.loads import LOAD_CASES, Loads
+
+WEIGHT, PRESSURE = "weight", "pressure"
+"""Kinds of load: by volume of the shell, or by area."""
+
+GLOBAL_X, GLOBAL_Y, DOWN = (1.0, 0.0, 0.0), (0.0, 1.0, 0.0), (0.0, 0.0, -1.0)
 
 
 @dataclass(frozen=True)
-class Loads:
-    """Surface loads in kN/m2; `area_basis` says whether LL and W act on mesh or plan area."""
+class SurfaceLoad:
+    """A load case: uniform over the shell.
 
-    superimposed_dead: float = 0.5
-    live: float = 1.0
-    wind: float = 1.7
-    wind_fraction: float = 0.5
-    area_basis: str = "mesh"
+    Attributes
+    ----------
+    case : name that combinations know it by
+    kind : WEIGHT or PRESSURE
+    value : kN/m3 of a weight, kN/m2 of a pressure
+    direction : unit vector in global axes; None is against the normal of each facet
+    area : what a pressure refers to, "sheet" (true area) or "plan_abs" (its plan projection)
+    """
+
+    case: str
+    kind: str
+    value: float
+    direction: tuple[float, float, float] | None
+    area: str = "sheet"
+
+    def evaluate(self, normal: np.ndarray, thickness: np.ndarray) -> np.ndarray:
+        """Return the load (E, 3) kN per m2 of mesh; normal (E, 3) unit, thickness (E,) m."""
+        size = np.full(len(normal), self.value)
+        if self.kind == WEIGHT:
+            size = self.value * thickness
+        elif self.area == "plan_abs":
+            size = self.value * np.abs(normal[:, 2])
+        along = -normal if self.direction is None else np.array(self.direction)
+        return size[:, None] * along
+
+
+def make_load_cases(loads: Loads, unit_weight: float) -> tuple[SurfaceLoad, ...]:
+    """Return the cases of Table 2 in the order of `LOAD_CASES`; unit weight kN/m3.
+
+    Part of the wind acts on all of the mesh. Live load and wind refer to the area that the
+    settings name.
+    """
+    wind, area = loads.wind * loads.wind_fraction, loads.area_basis
+    own, dead, live, along_x, along_y = LOAD_CASES
+    return (
+        SurfaceLoad(own, WEIGHT, unit_weight, DOWN),
+        SurfaceLoad(dead, PRESSURE, loads.superimposed_dead, None),
+        SurfaceLoad(live, PRESSURE, loads.live, DOWN, area),
+        SurfaceLoad(along_x, PRESSURE, wind, GLOBAL_X, area),
+        SurfaceLoad(along_y, PRESSURE, wind, GLOBAL_Y, area),
+    )
 
 
 def surface_loads(
     normal: np.ndarray,
     thickness: np.ndarray,
-    unit_weight: float,
-    loads: Loads,
+    cases: Sequence[SurfaceLoad],
     self_weight_only: np.ndarray | None = None,
 ) -> np.ndarray:
-    """Return the load of each case on each element, (E, 3, 5) kN per m2 of mesh.
-
-    Self-weight, live load and wind act along global axes; the superimposed dead load acts
-    against the normal of each facet. Half of the wind acts on all of the mesh (the fraction).
+    """Return the load of each case on each element, (E, 3, c) kN per m2 of mesh.
 
     Parameters
     ----------
     normal : (E, 3) unit normals
     thickness : (E,) m
+    cases : c load cases
     self_weight_only : (E,) bool, elements that carry nothing but their own weight; by default none
     """
-    result = np.zeros((len(normal), 3, len(LOAD_CASES)))
-    share = np.abs(normal[:, 2]) if loads.area_basis == "plan" else np.ones(len(normal))
-    result[:, 2, 0] = -unit_weight * thickness
-    result[:, :, 1] = -loads.superimposed_dead * normal
-    result[:, 2, 2] = -loads.live * share
-    result[:, 0, 3] = result[:, 1, 4] = loads.wind * loads.wind_fraction * share
+    result = np.stack([case.evaluate(normal, thickness) for case in cases], axis=2)
     if self_weight_only is not None:
-        result[self_weight_only, :, 1:] = 0
+        others = [case.kind != WEIGHT for case in cases]
+        result[np.ix_(self_weight_only, (True,) * 3, others)] = 0
     return result
 
 
-def combination_matrix(
-    combinations: Mapping[str, Mapping[str, float]], cases: Sequence[str] = LOAD_CASES
-) -> np.ndarray:
+def combination_matrix(combinations: Factors, cases: Sequence[str] = LOAD_CASES) -> np.ndarray:
     """Return the factors (cases, combinations) by which load cases are superposed.
 
     Factors without unit.

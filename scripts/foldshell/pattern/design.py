@@ -8,8 +8,8 @@ from foldshell.pattern.arc_miura import make_arc_sheet, size_arc_miura
 from foldshell.pattern.grid import build_grid, remove_creases
 from foldshell.pattern.miura import size_miura
 from foldshell.pattern.sheet import Sheet, make_miura_sheet
+from foldshell.settings.design import PATTERNS
 
-PATTERNS = ("miura", "arc_miura", "smooth", "flat")
 SECTOR_ANGLES_DEG = (46.0, 88.0)  # near 45 the rest state is flat, near 90 zig-zags vanish
 
 

@@ -47,7 +47,7 @@ def write_design_page(
     shown = [show_picture(name, path) for name, path in pictures.items() if name in SHOWN]
     headers, packed = pack_arrays(viewer.arrays)
     values = {
-        "title": files.design["design"],
+        "title": files.design.name,
         "description": describe_design(files.design),
         "sections": make_sections(files, utilization_max),
         "links": FILES | _link_pictures(pictures),

@@ -10,6 +10,7 @@ from foldshell.files.whole import read_json
 from foldshell.report.history_chart import Series, draw_history
 from foldshell.report.markup import Cell, Table, format_number, make_table
 from foldshell.results.design_view import count_analyses
+from foldshell.settings.design import Design
 from foldshell.workbook.styles import GOOD_VERDICTS
 
 FOLDING = {
@@ -48,7 +49,7 @@ UNITS = {"m": "m", "m2": "m²", "m3": "m³", "knm": "kNm", "kn": "kN", "rad": "r
 class DesignFiles:
     """What the files of a design say; `history` are the rows of history.csv."""
 
-    design: Mapping[str, Any]
+    design: Design
     final: Mapping[str, Any]
     quality: Mapping[str, Any]
     classes: Mapping[str, Any]
@@ -79,7 +80,7 @@ class Section:
     note: str = ""
 
 
-def read_files(design: Mapping[str, Any], paths: Mapping[str, str | Path]) -> DesignFiles:
+def read_files(design: Design, paths: Mapping[str, str | Path]) -> DesignFiles:
     """Read final, quality, classes, mesh_convergence, comparison (JSON) and history (CSV)."""
     names = ("final", "quality", "classes", "mesh_convergence", "comparison")
     with Path(paths["history"]).open(encoding="utf-8", newline="") as stream:
@@ -101,13 +102,13 @@ def make_sections(files: DesignFiles, utilization_max: float) -> list[Section]:
     ]
 
 
-def describe_design(design: Mapping[str, Any]) -> str:
+def describe_design(design: Design) -> str:
     """Return the row of designs.tsv as one sentence."""
-    tags = ", ".join(str(design.get("tags") or "none").split(","))
+    tags = ", ".join(design.tags or ("none",))
     return (
-        f"{design['pattern']} pattern, surface {design['surface']}, span {design['span_m']:g} m, "
-        f"height {design['height_m']:g} m, {design['zigzag']} zig-zags × {design['strip']} strips, "
-        f"{design['support']} edges supported, folded in mode {design['fold_mode']}; tags {tags}"
+        f"{design.pattern} pattern, surface {design.surface}, span {design.span:g} m, "
+        f"height {design.height:g} m, {design.zigzag} zig-zags × {design.strip} strips, "
+        f"{design.support} edges supported, folded in mode {design.fold_mode}; tags {tags}"
     )
 
 

@@ -140,7 +140,7 @@ def _fields(view: DesignView, grid: _Grid) -> dict[str, tuple]:
 
 
 def _utilization_fields(view: DesignView, grid: _Grid) -> dict[str, tuple]:
-    state, limit = view.state, view.limits.utilization_max
+    state, limit = view.state, view.sizing.utilization_max
     combinations = f"{state.strength[0]} to {state.strength[-1]}"
     found = {}
     for name, words, values, at in (

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from foldshell.checks.utilization import utilization_of_combinations
-from foldshell.results.design_view import Elasticity
 from foldshell.results.fields import facet_axes, rotate_forces
 from foldshell.results.state import DesignState
 from foldshell.settings.material import Material
@@ -21,8 +20,7 @@ class CombinationFields:
 
     `axes` (C, 3, 3) are rows x, y, normal; `force` (c, C, 3) nx, ny, nxy kN/m, `moment` (c, C, 3)
     mx, my, mxy kNm/m, `shear` (c, C, 2) vx, vy kN/m; `utilization` (s, C) of the s strength
-    combinations is the mean over a cell of the largest over top, middle and bottom surface, empty
-    where no strength is known.
+    combinations is the mean over a cell of the largest over top, middle and bottom surface.
     """
 
     axes: np.ndarray
@@ -32,24 +30,19 @@ class CombinationFields:
     utilization: np.ndarray
 
 
-def evaluate_combinations(
-    state: DesignState, elasticity: Elasticity, material: Material | None = None
-) -> CombinationFields:
+def evaluate_combinations(state: DesignState, material: Material) -> CombinationFields:
     """N = t E D eps, M = t^3/12 E D kappa, V = div M at the centroid of every cell.
 
-    A moment is positive where the lower side (against the normal) is in tension. With `material`
-    the utilization of the strength combinations too.
+    A moment is positive where the lower side (against the normal) is in tension.
     """
     mesh = state.mesh
-    operators = build_operators(mesh, elasticity.poissons_ratio)
+    operators = build_operators(mesh, material.poissons_ratio)
     geometry, thickness = operators.geometry, state.panel_thickness[mesh.panel]
     moved = state.final["displacement"]
-    found = stress_resultants(operators, moved, thickness, elasticity.youngs_modulus)
-    utilization = np.empty((0, len(thickness) * mesh.cells**2))
-    if material is not None:
-        strength = moved[:, : len(state.strength)]
-        values = utilization_of_combinations(operators, strength, thickness, material)
-        utilization = values.mean(axis=3).reshape(len(state.strength), -1)
+    found = stress_resultants(operators, moved, thickness, material.youngs_modulus)
+    strength = moved[:, : len(state.strength)]
+    values = utilization_of_combinations(operators, strength, thickness, material)
+    utilization = values.mean(axis=3).reshape(len(state.strength), -1)
     points = cell_points(mesh.cells)
     psi = orthonormal_basis(mesh.order - 1, points)
     force, moment = (

@@ -15,33 +15,20 @@ from foldshell.results.principal_stress_lines import (
     trace_principal_stress_lines,
 )
 from foldshell.results.state import DesignState
-
-
-@dataclass(frozen=True)
-class Limits:
-    """What a design is judged by: utilization (-), span over displacement (-)."""
-
-    utilization_max: float = 1.0
-    displacement_limit_span_over: float = 240.0
-
-
-@dataclass(frozen=True)
-class Elasticity:
-    """Young's modulus kPa and Poisson's ratio."""
-
-    youngs_modulus: float
-    poissons_ratio: float
+from foldshell.settings.material import Material
+from foldshell.settings.sizing import Sizing
+from foldshell.settings.stage import StageSettings
 
 
 @dataclass(frozen=True)
 class DesignView:
-    """What all pictures of a design share; `span` m."""
+    """What all pictures of a design share; `span` m, `sizing` with the limits to judge by."""
 
     state: DesignState
     creases: Creases
     span: float
-    limits: Limits
-    elasticity: Elasticity
+    sizing: Sizing
+    material: Material
 
     @property
     def size(self) -> float:
@@ -53,7 +40,7 @@ class DesignView:
         """The combination that governs most, and both families of lines under it."""
         state, spacing, step = self.state, self.size / 60, self.size / 150
         name = choose_strength(state)
-        stiffness = (self.elasticity.youngs_modulus, self.elasticity.poissons_ratio)
+        stiffness = (self.material.youngs_modulus, self.material.poissons_ratio)
         coefficients, geometry = membrane_force_coefficients(state, name, *stiffness)
         field = make_force_field(state.mesh, geometry, coefficients)
         return name, trace_principal_stress_lines(field, (0, 1), spacing, step)
@@ -62,28 +49,20 @@ class DesignView:
 def make_design_view(
     state: DesignState,
     span: float,
-    limits: Limits,
-    elasticity: Elasticity,
+    sizing: Sizing,
+    material: Material,
     folded: bool = True,
 ) -> DesignView:
     """Find the creases of a state; those of a smooth shell (`folded` False) are panel borders."""
     creases = find_creases(state.cells, state.folded, folded)
-    return DesignView(state, creases, span, limits, elasticity)
-
-
-def read_limits(settings: Mapping[str, Any]) -> Limits:
-    """Return the limits in the plain settings of stage `size`."""
-    sizing = settings["sizing"]
-    return Limits(sizing["utilization_max"], sizing["displacement_limit_span_over"])
+    return DesignView(state, creases, span, sizing, material)
 
 
 def view_design(
-    state: DesignState, settings: Mapping[str, Any], span: float, pattern: str
+    state: DesignState, settings: StageSettings, span: float, pattern: str
 ) -> DesignView:
-    """Return the view of a design with the plain settings of stage `size`; span m."""
-    material = settings["material"]
-    elasticity = Elasticity(material["youngs_modulus"], material["poissons_ratio"])
-    return make_design_view(state, span, read_limits(settings), elasticity, pattern != "smooth")
+    """Return the view of a design with the settings of stage `size`; span m."""
+    return make_design_view(state, span, settings.sizing, settings.material, pattern != "smooth")
 
 
 def count_analyses(report: Mapping[str, Any]) -> str:

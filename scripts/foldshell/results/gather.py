@@ -1,7 +1,7 @@
 """All iterations of one design, read back from their files."""
 
 import shutil
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -13,6 +13,8 @@ from foldshell.files.errors import InputError
 from foldshell.files.job_record import FOLDER
 from foldshell.files.whole import TEMPORARY_PREFIX, read_arrays, read_json
 from foldshell.results.history import make_history
+from foldshell.settings.design import Design
+from foldshell.settings.sizing import Sizing
 
 SUPERSEDED = "superseded"
 
@@ -29,7 +31,7 @@ class Iterations:
 
 
 def gather_iterations(
-    json_paths: Sequence[str | Path], design: Mapping[str, Any], sizing: Mapping[str, Any]
+    json_paths: Sequence[str | Path], design: Design, sizing: Sizing
 ) -> Iterations:
     """Read the iterations in order.
 
@@ -42,10 +44,10 @@ def gather_iterations(
     arrays_paths = [Path(path).with_suffix(".npz") for path in json_paths]
     arrays = [read_arrays(path) for path in arrays_paths]
     thicknesses = [item["thickness"] for item in arrays]
-    limit = design["span_m"] / sizing["displacement_limit_span_over"]
+    limit = design.span / sizing.displacement_limit_span_over
     edited = [item["iteration"] for item in analyses if item.get("edited")]
     history = make_history(analyses, thicknesses, limit, edited)
-    utilization = arrays[-1].get(f"utilization_{sizing['measure']}")
+    utilization = arrays[-1].get(f"utilization_{sizing.measure}")
     if utilization is None:
         utilization = np.full(len(thicknesses[-1]), np.nan)
     return Iterations(analyses, history, arrays_paths[-1], thicknesses[-1], utilization)

@@ -69,6 +69,6 @@ def utilization_isolines(view: DesignView) -> list[tuple[float, np.ndarray]]:
     values = panel_node_values(
         state.utilization, state.triangles, state.cell_panel, cell_area(state)
     )
-    scale = make_limit_scale(values, view.limits.utilization_max)
+    scale = make_limit_scale(values, view.sizing.utilization_max)
     levels = np.linspace(scale.low, scale.high, ISOLINES + 1)[1:]
     return [(float(level), find_isolines(corners, values, level)) for level in levels]

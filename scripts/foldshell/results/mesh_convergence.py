@@ -1,12 +1,14 @@
 """Mesh error of the headline numbers: one state on the mesh in use and on a reference mesh."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
 from foldshell.checks.utilization import area_percentile, compute_utilization, panel_utilization
+from foldshell.loads.cases import SurfaceLoad
+from foldshell.settings.field import Factors
 from foldshell.settings.material import Material
 from foldshell.shell.analysis import analyse_shell, build_model
 from foldshell.shell.edge_beams import EdgeBeam
@@ -67,8 +69,8 @@ def study_mesh(
     panel_thickness: np.ndarray,
     subdivisions: int,
     material: Material,
-    loads: Any,
-    combinations: Mapping[str, Mapping[str, float]],
+    cases: Sequence[SurfaceLoad],
+    combinations: Factors,
     edge_beam: EdgeBeam | None = None,
 ) -> dict[str, Any]:
     """Return {quantity: [on the mesh in use, on the reference mesh]} by combination.
@@ -84,7 +86,7 @@ def study_mesh(
     subdivisions : of the mesh in use
     edge_beam : its panels count among the others
     """
-    state = (folded, support, edge_beam, panel_thickness, material, loads, combinations)
+    state = (folded, support, edge_beam, panel_thickness, material, cases, combinations)
     in_use = {"subdivisions": subdivisions}
     reference = choose_reference(folded, subdivisions)
     finest = reference.get("subdivisions", EQUIVALENT)
@@ -168,7 +170,7 @@ def _relative(value: float, limit: float) -> float:
     return abs(value - limit) / abs(limit) if limit else 0.0
 
 
-def _analyse(mesh, folded, support, edge_beam, panel_thickness, material, loads, combinations):
+def _analyse(mesh, folded, support, edge_beam, panel_thickness, material, cases, combinations):
     """Analyse one mesh; return {combination: {quantity: value, second_order: {...}}}."""
     arrays = mesh_folded_sheet(dict(folded), support, **mesh, edge_beam=edge_beam)
     held, fixed = arrays["supported_nodes"], arrays.get("fixed_thickness")
@@ -176,7 +178,7 @@ def _analyse(mesh, folded, support, edge_beam, panel_thickness, material, loads,
         mesh_from_arrays(arrays), held, material.poissons_ratio, fixed_thickness=fixed
     )
     thickness = model.to_elements(panel_thickness)
-    result = analyse_shell(model, thickness, material, loads, combinations)
+    result = analyse_shell(model, thickness, material, cases, combinations)
     if result.state == "mechanism":
         raise MechanismError(result.reason)
     first = replace(result, displacement=result.first_order, second_order=None)

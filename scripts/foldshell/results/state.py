@@ -9,6 +9,7 @@ import numpy as np
 
 from foldshell.files.errors import InputError
 from foldshell.files.whole import read_arrays, read_json
+from foldshell.settings.loads import Combinations
 from foldshell.shell.mesh import ShellMesh
 from foldshell.shell.mesh_files import (
     cell_triangles,
@@ -105,7 +106,7 @@ def read_state(
     folded_path: str | Path,
     final_path: str | Path,
     report_path: str | Path,
-    combinations: Mapping[str, Mapping[str, Any]],
+    combinations: Combinations,
     classes_path: str | Path | None = None,
 ) -> DesignState:
     """Read mesh.npz, folded.npz, final.npz, final.json and, if given, classes.npz of a design.
@@ -134,7 +135,7 @@ def read_state(
         folded=read_arrays(folded_path),
         final=final,
         report=read_json(report_path),
-        strength=tuple(combinations["strength"]),
-        deflection=tuple(combinations["deflection"]),
+        strength=tuple(combinations.strength),
+        deflection=tuple(combinations.deflection),
         classes=read_arrays(classes_path) if classes_path else {},
     )

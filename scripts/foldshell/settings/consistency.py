@@ -1,8 +1,10 @@
-"""Checks of settings against each other, which a schema cannot state."""
+"""Checks of settings against each other, which no single one can state."""
 
 from foldshell.files.errors import InputError
+from foldshell.settings.crosscheck import Crosscheck
+from foldshell.settings.loads import Combinations, Loads
 from foldshell.settings.nearest import hint_nearest
-from foldshell.settings.options import Combinations, Crosscheck, Sizing
+from foldshell.settings.sizing import Sizing
 
 
 def check_sizing(sizing: Sizing, source: str) -> None:
@@ -29,6 +31,41 @@ def check_sizing(sizing: Sizing, source: str) -> None:
             f"{source}: sizing.utilization_min: {sizing.utilization_min:g}: less than "
             f"utilization_max = {sizing.utilization_max:g} is allowed"
         )
+
+
+def check_combinations(combinations: Combinations, loads: Loads, source: str) -> None:
+    """Check that names differ by more than case, and that each combination loads the shell."""
+    seen: dict[str, str] = {}
+    for group in ("strength", "deflection"):
+        for name in getattr(combinations, group):
+            place = f"combinations.{group}.{name}"
+            first = seen.setdefault(name.casefold(), place)
+            if first != place:
+                kind = "a strength" if first.startswith("combinations.strength") else "another"
+                same = first.endswith(f".{name}")
+                raise InputError(
+                    f"{source}: {place}: "
+                    + (f"names {kind} combination too, each name may stand once" if same else
+                       f"differs from {first} in case alone: names that differ by more are allowed")
+                )  # fmt: skip
+    _check_loading(combinations, loads, source)
+
+
+def _check_loading(combinations: Combinations, loads: Loads, source: str) -> None:
+    wind = loads.wind * loads.wind_fraction
+    value = {"SW": 1.0, "SDL": loads.superimposed_dead, "LL": loads.live, "WX": wind, "WY": wind}
+    keys = {"SDL": "superimposed_dead_kn_m2", "LL": "live_kn_m2"}
+    wind_keys = "wind_kn_m2 x wind_fraction"
+    for group in ("strength", "deflection"):
+        for name, factors in getattr(combinations, group).items():
+            if any(factor * value[case] for case, factor in factors.items()):
+                continue
+            zero = [keys.get(case, wind_keys) for case, f in factors.items() if f]
+            why = f", loads.{' and loads.'.join(dict.fromkeys(zero))} is 0" if zero else ""
+            raise InputError(
+                f"{source}: combinations.{group}.{name}: combination {name} loads nothing{why}: "
+                "at least one factor other than 0 of a load other than 0 is allowed"
+            )
 
 
 def check_crosscheck(crosscheck: Crosscheck, combinations: Combinations, source: str) -> None:

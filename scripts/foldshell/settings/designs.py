@@ -1,90 +1,46 @@
 """The table of designs: read strictly, validate, fill in defaults, choose by tag."""
 
 import csv
-import functools
 import io
 import re
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from foldshell.files.errors import InputError
 from foldshell.files.meshes.read import FORMATS, is_mesh_file
+from foldshell.settings.check import Reader, parse_text
 from foldshell.settings.config_file import read_text
+from foldshell.settings.design import COLUMNS, SURFACES, Design, DesignColumns
+from foldshell.settings.field import list_settings
 from foldshell.settings.nearest import hint_nearest
-from foldshell.settings.options import Settings
-from foldshell.settings.schema import TABLE, load_schema, validate
-from foldshell.settings.units import convert_units
+from foldshell.settings.study import Settings
 
-SURFACES = ("paraboloid", "hypar", "hypar_twist", "arch", "arch_strip")
-COLUMNS = (
-    "design",
-    "pattern",
-    "surface",
-    "span_m",
-    "height_m",
-    "zigzag",
-    "strip",
-    "support",
-    "fold_mode",
-    "edge_beam_depth_m",
-    "edge_beam_thickness_m",
-    "tags",
+NAME = re.compile(r"[a-z0-9][a-z0-9_-]{0,63}")
+NAME_ALLOWED = (
+    "a name of lower-case letters, digits, - and _, 64 at most, beginning with a letter or digit"
 )
+TAGS = re.compile(r"([a-z0-9][a-z0-9_]{0,31}(, ?[a-z0-9][a-z0-9_]{0,31})*)?")
+TAGS_ALLOWED = "a list of words of lower-case letters, digits and _, with commas between"
 # Names under results/ that are not designs, and device names that Windows cannot create.
 _RESERVED = {"archive", "bench", "figures", "logs", "report", "schemas"}
 _RESERVED |= {"con", "prn", "aux", "nul"}
 _RESERVED |= {f"{device}{number}" for device in ("com", "lpt") for number in range(1, 10)}
-_NUMBER = re.compile(r"[-+]?(0|[1-9][0-9]*)(\.[0-9]*)?([eE][-+]?[0-9]{1,3})?")
 _DESIGNS_MAX = 10_000
 
 
-@dataclass(frozen=True)
-class Design:
-    """One design of the study; lengths in m, zigzag and strip are counts of polylines, both sizes
-    of the edge beam are 0 where there is none."""
-
-    name: str
-    pattern: str
-    surface: str
-    span: float
-    height: float
-    zigzag: int
-    strip: int
-    support: str
-    fold_mode: str
-    edge_beam_depth: float
-    edge_beam_thickness: float
-    tags: tuple[str, ...]
-
-    @property
-    def panels(self) -> int:
-        """Number of panels, (zigzag - 1)(strip - 1)."""
-        return (self.zigzag - 1) * (self.strip - 1)
-
-    def to_row(self) -> dict[str, Any]:
-        """Return the design as a plain row with the columns of designs.tsv."""
-        row = {column: getattr(self, column.removesuffix("_m"), None) for column in COLUMNS}
-        return {**row, "design": self.name, "tags": ",".join(self.tags)}
-
-
-@functools.cache
-def designs_schema() -> dict[str, Any]:
-    """Return the schema of one row of designs.tsv."""
-    return load_schema("designs.schema.yaml")
-
-
-def read_designs(path: str | Path, settings: Settings) -> list[Design]:
-    """Read and validate a table of designs, in its order.
+def read_designs(
+    path: str | Path, settings: Settings, notes: list[str] | None = None
+) -> list[Design]:
+    """Read and validate a table of designs, in its order; `notes` gathers what is to be said.
 
     Raises `InputError` that names the file, the line, the design, the column and what is allowed.
     """
-    path = Path(path)
+    path, found = Path(path), []
     rows = _read_rows(path)
-    defaults = _default_row(settings)
-    designs = [_make_design(row, defaults, settings, f"{path}: line {line}") for line, row in rows]
+    designs = [_make_design(row, settings, f"{path}: line {line}", found) for line, row in rows]
     _check_unique(designs, [line for line, _ in rows], path)
+    if notes is not None:
+        notes += [f"{path}: {note}" for note in dict.fromkeys(found)]
     return designs
 
 
@@ -145,27 +101,27 @@ def _check_header(header: list[str], place: str) -> None:
         raise InputError(f"{place}: the column 'design' is missing")
 
 
-def _default_row(settings: Settings) -> dict[str, Any]:
-    defaults = settings.defaults
-    row = {column: getattr(defaults, column.removesuffix("_m"), None) for column in COLUMNS[1:]}
-    return {**row, "tags": ""}
-
-
 def _make_design(
-    cells: Mapping[str, str], defaults: Mapping[str, Any], settings: Settings, place: str
+    cells: Mapping[str, str], settings: Settings, place: str, notes: list[str]
 ) -> Design:
     if not cells["design"]:
         raise InputError(f"{place}: design: the cell is empty: a name is due")
     where = f"{place}: design {cells['design']!r}"
-    given = {column: _parse(column, cell) for column, cell in cells.items() if cell}
-    row = {**defaults, **given}
-    validate(row, designs_schema(), where, TABLE)
-    _check_name(row["design"], where)
-    _check_surface(row["surface"], where)
-    _check_edge_beam(row, where)
-    values = convert_units({key: row[key] for key in COLUMNS if key not in ("design", "tags")})
-    tags = tuple(tag.strip() for tag in row["tags"].split(",") if tag.strip())
-    design = Design(name=row["design"], tags=tuple(dict.fromkeys(tags)), **values)
+    _check_name(cells["design"], where)
+    reader = Reader(where, yaml=False, notes=notes)
+    given = {
+        name: known.convert(reader.read_value(known, parse_text(known, cell), known.key))
+        for name, known in list_settings(DesignColumns).items()
+        if (cell := cells.get(known.key))
+    }
+    tags = cells.get("tags", "")
+    if not TAGS.fullmatch(tags):
+        raise reader.refuse("tags", tags, TAGS_ALLOWED)
+    words = dict.fromkeys(tag.strip() for tag in tags.split(",") if tag.strip())
+    columns = vars(settings.defaults) | given
+    design = Design(name=cells["design"], tags=tuple(words), **columns)
+    _check_surface(design.surface, where)
+    _check_edge_beam(design, where)
     if design.panels > settings.limits.panels_max:
         raise InputError(
             f"{where}: zigzag x strip: {design.zigzag} x {design.strip} lines are "
@@ -175,28 +131,11 @@ def _make_design(
     return design
 
 
-def _parse(column: str, cell: str) -> Any:
-    """Return the number in a cell of a number column; other text stays, for the schema to name.
-
-    A whole number may be written with a decimal point, as in settings files: 15.0 is 15.
-    """
-    kind = designs_schema()["properties"][column]["type"]
-    if kind not in ("integer", "number") or not _NUMBER.fullmatch(cell):
-        return cell
-    value = float(cell)
-    return int(value) if kind == "integer" and value.is_integer() else value
-
-
 def _check_name(name: str, where: str) -> None:
-    if not re.fullmatch(design_name_pattern(), name):
-        raise InputError(f"{where}: design: {designs_schema()['properties']['design']['allowed']}")
+    if not NAME.fullmatch(name):
+        raise InputError(f"{where}: design: {name!r}: {NAME_ALLOWED} is allowed")
     if name in _RESERVED:
         raise InputError(f"{where}: design: this name is reserved, choose another one")
-
-
-def design_name_pattern() -> str:
-    """Return the regular expression that a design's name matches whole, for rules too."""
-    return str(designs_schema()["properties"]["design"]["pattern"]).strip("^$")
 
 
 def _check_surface(surface: str, where: str) -> None:
@@ -213,15 +152,15 @@ def _check_surface(surface: str, where: str) -> None:
     )
 
 
-def _check_edge_beam(row: Mapping[str, Any], where: str) -> None:
-    depth, thickness = row["edge_beam_depth_m"], row["edge_beam_thickness_m"]
+def _check_edge_beam(design: Design, where: str) -> None:
+    depth, thickness = design.edge_beam_depth, design.edge_beam_thickness
     if bool(depth) != bool(thickness):
         given, missing = ("depth", "thickness") if depth else ("thickness", "depth")
         raise InputError(
             f"{where}: edge_beam_{missing}_m: 0 beside edge_beam_{given}_m = "
             f"{depth or thickness:g}: both above 0 are allowed, or none"
         )
-    if depth and row["support"] == "all":
+    if depth and design.support == "all":
         raise InputError(
             f"{where}: edge_beam_depth_m: {depth:g}: with support all no border is free to carry "
             "an edge beam: 0 is allowed"

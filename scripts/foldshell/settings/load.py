@@ -1,35 +1,50 @@
 """Everything that is checked before the first job: settings files, settings, designs."""
 
-from collections.abc import Iterable, Mapping
+import sys
+from collections.abc import Callable, Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
 from foldshell.files.errors import InputError
 from foldshell.files.meshes.surface import read_surface
+from foldshell.settings.check import Reader, parse_group
 from foldshell.settings.config_file import read_config
-from foldshell.settings.designs import SURFACES, Design, check_defaults, read_designs
-from foldshell.settings.make import config_schema, make_settings
-from foldshell.settings.options import Settings
-from foldshell.settings.schema import validate
+from foldshell.settings.design import SURFACES, Design
+from foldshell.settings.designs import check_defaults, read_designs
+from foldshell.settings.make import make_settings
+from foldshell.settings.study import Settings
+
+
+def _print_note(text: str) -> None:
+    sys.stderr.write(text + "\n")
 
 
 def load_study(
-    config: Mapping[str, Any], files: Iterable[str | Path] = ()
+    config: Mapping[str, Any],
+    files: Iterable[str | Path] = (),
+    say: Callable[[str], None] = _print_note,
 ) -> tuple[Settings, list[Design]]:
     """Return the typed settings and the designs of a study.
 
     `files` are read strictly for what Snakemake's own YAML reading lets through (duplicate keys,
-    octal numbers, `no` for False) and validated alone, so that the message names the file;
-    `config` is what Snakemake merged from them and `--config`. Raises `InputError`.
+    octal numbers, `no` for False) and checked alone, so that the message names the file; `config`
+    is what Snakemake merged from them and `--config`, where all is text at first. `say` is told
+    each old word in a file once, with the new one. Raises `InputError`.
     """
-    source = "configuration"
+    source, notes = "configuration", []
     for file in files:
-        validate(read_config(file), config_schema(), str(file))
+        found: list[str] = []
+        Reader(str(file), notes=found).read_group(Settings, read_config(file))
+        notes += [f"{file}: {note}" for note in found]
         source = f"{file} with --config"
-    settings = make_settings(config, source)
+    found = []
+    settings = make_settings(parse_group(Settings, config), source, found)
+    notes += [f"{source}: {note}" for note in found] if not notes else []
     check_defaults(settings, source)
-    designs = read_designs(settings.designs, settings)
+    designs = read_designs(settings.designs, settings, notes)
     check_surface_files(designs, str(settings.designs))
+    for note in dict.fromkeys(notes):
+        say(note)
     return settings, designs
 
 

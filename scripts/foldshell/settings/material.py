@@ -1,19 +1,34 @@
 """The material of a shell; stresses in kPa."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
+
+from foldshell.settings.field import Group, setting, settings_group
 
 
-@dataclass(frozen=True)
-class Material:
-    """An isotropic elastic material: moduli and strengths in kPa, unit weight in kN/m3."""
+@settings_group
+class Material(Group):
+    """Material of the shell; the default is the paper's concrete."""
 
-    name: str
-    youngs_modulus: float
-    poissons_ratio: float
-    unit_weight: float
-    strength: float
-    strength_tension: float
-    criterion: str = "von_mises"
+    name: str = setting("C25/30", longest=60, meaning="Name in tables and workbooks.")
+    youngs_modulus: float = setting(
+        31, unit="GPa", above=0, maximum=1000, meaning="Young's modulus."
+    )
+    poissons_ratio: float = setting(0.2, above=-1, below=0.5, meaning="Poisson's ratio.")
+    unit_weight: float = setting(
+        25, unit="kN/m3", above=0, maximum=250, meaning="Weight of a unit volume."
+    )
+    strength: float = setting(
+        16.7, unit="MPa", above=0, maximum=10000,
+        meaning="Strength in compression, and the only strength of the von Mises criterion.",
+    )  # fmt: skip
+    strength_tension: float = setting(
+        1.67, unit="MPa", above=0, maximum=10000,
+        meaning="Strength in tension, which the criteria of Rankine and of Drucker and Prager use.",
+    )  # fmt: skip
+    criterion: str = setting(
+        "von_mises", choices=("von_mises", "rankine", "drucker_prager"),
+        meaning="Stress that is compared with the strength.",
+    )  # fmt: skip
 
 
 def age_material(material: Material, creep_coefficient: float) -> Material:

@@ -1,80 +1,58 @@
 """What each stage of a design depends on: plain values for Snakemake's `params`, and hashes."""
 
 from collections.abc import Mapping
-from dataclasses import asdict
 from typing import Any
 
 from foldshell.files.whole import hash_data
-from foldshell.settings.designs import Design
-from foldshell.settings.options import Settings
+from foldshell.settings.analysis import Analysis
+from foldshell.settings.crosscheck import Crosscheck
+from foldshell.settings.design import Design
+from foldshell.settings.exports import Drawings, Exports
+from foldshell.settings.field import Plain, list_groups
+from foldshell.settings.fold import Fold, Pattern
+from foldshell.settings.loads import Combinations, Loads
+from foldshell.settings.material import Material
+from foldshell.settings.sizing import Sizing
+from foldshell.settings.stage import to_plain
+from foldshell.settings.study import Figures, Settings
 
-_CRITERIA = [
-    "sizing.measure",
-    "sizing.least_thickness",
-    "sizing.largest_thickness",
-    "sizing.utilization_min",
-    "sizing.utilization_max",
-    "sizing.displacement_limit_span_over",
-    "sizing.volume_change_max",
-    "sizing.volume_change_max_relative",
-    "sizing.iterations_max",
-    "sizing.stop",
-    "sizing.rule",
-    "sizing.thinning_buckling_factor_min",
-]
-_ANALYSIS = [
-    "analysis.second_order",
-    "analysis.second_order_tolerance",
-    "analysis.second_order_iterations_max",
-    "analysis.solver",
-    "analysis.imperfection",
-]
-_STRENGTH = [
-    "material",
-    "loads.superimposed_dead",
-    "loads.live",
-    "loads.wind",
-    "loads.wind_fraction",
-    "loads.area_basis",
-    "combinations",
-]
-_BOUNDS = ["sizing.least_thickness", "sizing.largest_thickness"]
-STAGES: dict[str, list[str]] = {
-    "pattern": ["pattern"],
-    "fold": ["pattern", "fold"],
-    "mesh": ["analysis.subdivisions"],
-    "start": ["sizing.start_thickness", *_BOUNDS],
-    "analyse": [*_STRENGTH, *_ANALYSIS, *_CRITERIA],
-    "resize": ["sizing"],
-    "size": [*_STRENGTH, *_ANALYSIS, "sizing"],
-    "crosscheck": [*_STRENGTH, "crosscheck"],
-    "figures": ["figures"],
-    "drawings": ["drawings"],
-    "exports": ["exports"],
-    "study": ["pattern", "fold", *_STRENGTH, "analysis", "sizing", "crosscheck"],
+_LOADED = (Material, Loads, Combinations)
+STAGES: dict[str, tuple[type, ...]] = {
+    "pattern": (Pattern,),
+    "fold": (Fold,),
+    "mesh": (Analysis,),
+    "start": (Sizing,),
+    "analyse": (*_LOADED, Analysis, Sizing),
+    "resize": (Sizing,),
+    "size": (*_LOADED, Analysis, Sizing),
+    "crosscheck": (*_LOADED, Crosscheck),
+    "figures": (Figures,),
+    "drawings": (Drawings,),
+    "exports": (Exports,),
+    "study": (Pattern, Fold, *_LOADED, Analysis, Sizing, Crosscheck),
 }
+"""Groups that each stage takes; a setting with `stages` of its own goes to those alone."""
+
+DECIDING = ("pattern", "fold", "mesh", "start", "analyse", "resize")
+"""Stages whose settings decide the final state of a design."""
 
 FINAL_STATE = ("shell/mesh.npz", "folded/folded.npz", "sizing/final.npz", "sizing/final.json")
 """The files in a design's folder that hold its final state, as figures over all designs read it."""
 
 
-def stage_parameters(
-    settings: Settings, stage: str, design: Design | None = None
-) -> dict[str, dict[str, Any]]:
+def stage_parameters(settings: Settings, stage: str, design: Design | None = None) -> Plain:
     """Return the plain values {group: {field: value}} that one stage depends on, and no others.
 
     As Snakemake `params` they make a rule run again only when a setting that it needs has
-    changed. A whole group goes back to its class by `Material(**values["material"])`. A design
-    with the tag `demo` gets the demo's subdivisions.
+    changed; `read_stage` makes typed settings of them. A design with the tag `demo` gets the
+    demo's subdivisions.
     """
-    plain = asdict(settings)
-    if design is not None:
-        plain["analysis"]["subdivisions"] = choose_subdivisions(settings, design)
-    chosen: dict[str, dict[str, Any]] = {}
-    for name in STAGES[stage]:
-        group, _, field = name.partition(".")
-        values = {field: plain[group][field]} if field else plain[group]
-        chosen.setdefault(group, {}).update(values)
+    chosen = {}
+    for name, kind in list_groups(Settings).items():
+        if kind in STAGES[stage]:
+            chosen[name] = to_plain(getattr(settings, name), stage)
+    if design is not None and "subdivisions" in chosen.get("analysis", {}):
+        chosen["analysis"]["subdivisions"] = choose_subdivisions(settings, design)
     return chosen
 
 

@@ -1,11 +1,13 @@
 """The shell analysis of one thickness vector: what Karamba did in the paper's loop."""
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from foldshell.loads.cases import Loads, combination_matrix, surface_loads
+from foldshell.loads.cases import SurfaceLoad, combination_matrix, surface_loads
+from foldshell.settings.analysis import Analysis
+from foldshell.settings.field import Factors
 from foldshell.settings.material import Material
 from foldshell.shell.assembly import (
     LowerPattern,
@@ -22,21 +24,6 @@ from foldshell.shell.nodal_loads import nodal_forces
 from foldshell.shell.second_order import SecondOrderResult, solve_second_order
 from foldshell.shell.stiffness import ShellOperators, build_operators
 from foldshell.shell.stress import membrane_forces
-
-
-@dataclass(frozen=True)
-class AnalysisOptions:
-    """How to analyse; see `solve_second_order` for the tolerance and the limit.
-
-    `imperfection` (m) is the largest displacement of the stress-free initial shape of second
-    order: the mode of the least buckling factor, turned to the side to which its loads push it.
-    """
-
-    second_order: bool = True
-    second_order_tolerance: float = 1e-6
-    second_order_iterations_max: int = 60
-    solver: str = "cholmod"
-    imperfection: float = 0.0
 
 
 @dataclass(frozen=True)
@@ -139,9 +126,9 @@ def analyse_shell(
     model: ShellModel,
     thickness: np.ndarray,
     material: Material,
-    loads: Loads,
-    combinations: Mapping[str, Mapping[str, float]],
-    options: AnalysisOptions | None = None,
+    cases: Sequence[SurfaceLoad],
+    combinations: Factors,
+    options: Analysis | None = None,
     start_modes: np.ndarray | None = None,
 ) -> AnalysisResult:
     """Factorise K once; first order, buckling factors and second order of all combinations.
@@ -149,22 +136,24 @@ def analyse_shell(
     Parameters
     ----------
     thickness : (E,) m
+    cases : load cases, which the combinations know by name
+    options : by default the settings at their defaults
     start_modes : (free, c) buckling modes of an earlier, similar state
     """
-    options = options or AnalysisOptions()
+    options = options or Analysis()
     names = tuple(combinations)
     normal = model.operators.geometry.frame[:, 2]
-    surface = surface_loads(normal, thickness, material.unit_weight, loads, model.self_weight_only)
-    cases = nodal_forces(model.operators, surface)
-    factors = combination_matrix(combinations)
+    surface = surface_loads(normal, thickness, cases, model.self_weight_only)
+    forces = nodal_forces(model.operators, surface)
+    factors = combination_matrix(combinations, [case.case for case in cases])
     values = assemble_stiffness(model.operators, model.pattern, thickness, material.youngs_modulus)
     try:
         solution = _Solution(model, thickness, material, values, options.solver)
     except NotPositiveDefiniteError:
-        return _mechanism(model, names, cases @ factors, values, options.solver)
-    linear_cases = solution.solve(cases)
+        return _mechanism(model, names, forces @ factors, values, options.solver)
+    linear_cases = solution.solve(forces)
     linear = linear_cases @ factors
-    total = cases @ factors
+    total = forces @ factors
     if not options.second_order:
         return AnalysisResult("ok", "first order only", names, linear, linear, total)
     buckling = solution.buckling(linear_cases, factors, start_modes)
@@ -247,7 +236,7 @@ class _Solution:
         return replace(found, modes=found.modes[place])
 
     def second_order(
-        self, linear: np.ndarray, options: AnalysisOptions, initial: np.ndarray | None
+        self, linear: np.ndarray, options: Analysis, initial: np.ndarray | None
     ) -> SecondOrderResult:
         """Return second-order displacements, from an initial shape where there is one."""
         dofs, operators = self._dofs, self._model.operators

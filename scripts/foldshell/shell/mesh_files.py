@@ -9,7 +9,7 @@ from foldshell.files.whole import atomic_path, read_arrays, write_arrays
 from foldshell.shell.edge_beams import EdgeBeam, facet_edges, free_edges, hang_edge_beam_panels
 from foldshell.shell.mesh import ShellMesh, build_mesh, edge_polyline_nodes
 from foldshell.shell.reference import lagrange_basis, lattice_points
-from foldshell.shell.supports import supported_pairs
+from foldshell.shell.supports import find_support, supported_pairs
 
 
 def mesh_folded_sheet(
@@ -29,7 +29,9 @@ def mesh_folded_sheet(
     the thickness of the last B panels, the edge beam's, which are not sized.
     """
     vertices, facets = folded["vertices"], folded["facets"]
-    pairs = supported_pairs(facet_edges(facets), folded["zigzag"], folded["strip"], support)
+    pairs = supported_pairs(
+        facet_edges(facets), folded["zigzag"], folded["strip"], find_support(support)
+    )
     fixed = {}
     if edge_beam is not None:
         edges = free_edges(facets, pairs)

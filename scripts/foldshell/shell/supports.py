@@ -1,12 +1,46 @@
 """Supported edges of a folded sheet: pins on the border polylines of zig-zags or strips."""
 
+from dataclasses import dataclass
+
 import numpy as np
 
-SUPPORTS = ("all", "zigzag", "strip")
+
+@dataclass(frozen=True)
+class Support:
+    """Where a sheet is held, and how.
+
+    Attributes
+    ----------
+    name : word of the table of designs
+    where : families whose first and last polyline are held: "zigzag", "strip"
+    fix : global directions in which their nodes are held
+    """
+
+    name: str
+    where: tuple[str, ...]
+    fix: tuple[str, ...] = ("x", "y", "z")
+
+
+SUPPORT_SETS = {
+    support.name: support
+    for support in (
+        Support("all", ("zigzag", "strip")),
+        Support("zigzag", ("zigzag",)),
+        Support("strip", ("strip",)),
+    )
+}
+"""The three supports of the paper, by name."""
+
+
+def find_support(name: str) -> Support:
+    """Return a support by its name; raises `ValueError` for another word."""
+    if name not in SUPPORT_SETS:
+        raise ValueError(f"support {name!r}: allowed are {', '.join(SUPPORT_SETS)}")
+    return SUPPORT_SETS[name]
 
 
 def supported_pairs(
-    pairs: np.ndarray, zigzag_index: np.ndarray, strip_index: np.ndarray, support: str
+    pairs: np.ndarray, zigzag_index: np.ndarray, strip_index: np.ndarray, support: Support
 ) -> np.ndarray:
     """Return those facet edges (K, 2) that lie on supported border polylines.
 
@@ -14,19 +48,13 @@ def supported_pairs(
     ----------
     pairs : (C, 2) vertex numbers of all facet edges
     zigzag_index, strip_index : (V,) polylines that the vertices lie on
-    support : "zigzag" pins the first and last zig-zag, "strip" those strips, "all" all four
-
-    Raises
-    ------
-    ValueError
-        for another word.
+    support : holds the first and the last polyline of each family that it names
     """
-    if support not in SUPPORTS:
-        raise ValueError(f"support {support!r}: allowed are {', '.join(SUPPORTS)}")
     chosen = np.zeros(len(pairs), dtype=bool)
-    for name, index in (("zigzag", zigzag_index), ("strip", strip_index)):
-        if support in (name, "all"):
-            ends = index[pairs]
-            for border in (index.min(), index.max()):
-                chosen |= (ends == border).all(axis=1)
+    families = {"zigzag": zigzag_index, "strip": strip_index}
+    for name in support.where:
+        index = families[name]
+        ends = index[pairs]
+        for border in (index.min(), index.max()):
+            chosen |= (ends == border).all(axis=1)
     return pairs[chosen]

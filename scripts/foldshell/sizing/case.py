@@ -1,30 +1,25 @@
-"""From mesh and plain settings to what every analysis of a design shares."""
+"""From mesh and settings to what every analysis of a design shares."""
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+
+import numpy as np
 
 from foldshell.files.errors import InputError
 from foldshell.files.whole import hash_data, hash_file, read_arrays
-from foldshell.loads.cases import Loads
-from foldshell.settings.material import Material
-from foldshell.shell.analysis import AnalysisOptions, build_model
+from foldshell.loads.cases import make_load_cases
+from foldshell.settings.stage import StageSettings
+from foldshell.shell.analysis import build_model
 from foldshell.shell.mesh_files import mesh_from_arrays
-from foldshell.sizing.criteria import StopRule
-from foldshell.sizing.iteration import AnalysisCase, LoadPlan
+from foldshell.sizing.iteration import AnalysisCase
 from foldshell.sizing.step import NEED_CONSTRAINTS
 
 _LAST: dict[tuple[str, str], AnalysisCase] = {}
 """The case that `open_case` built last, by the hashes of mesh and settings."""
 
 
-def make_stop_rule(sizing: Mapping[str, Any]) -> StopRule:
-    """Return the limits of the loop from plain settings."""
-    return StopRule(**{name: sizing[name] for name in StopRule.__dataclass_fields__})
-
-
-def open_case(mesh_path: str | Path, settings: Mapping[str, Any]) -> AnalysisCase:
-    """Read a mesh and build what depends on it and on the plain settings of the stage `analyse`.
+def open_case(mesh_path: str | Path, settings: StageSettings) -> AnalysisCase:
+    """Read a mesh and build what depends on it and on the settings of the stage `analyse`.
 
     The last case is remembered: a process that goes on with the same mesh and settings has it at
     once, told by the contents of the file and not by its name.
@@ -34,7 +29,7 @@ def open_case(mesh_path: str | Path, settings: Mapping[str, Any]) -> AnalysisCas
     InputError
         for supports that leave a mechanism.
     """
-    key = hash_file(mesh_path), hash_data(settings)
+    key = hash_file(mesh_path), hash_data(settings.to_plain())
     if key not in _LAST:
         try:
             case = make_case(read_arrays(mesh_path), settings)
@@ -45,17 +40,18 @@ def open_case(mesh_path: str | Path, settings: Mapping[str, Any]) -> AnalysisCas
     return _LAST[key]
 
 
-def make_case(arrays: Mapping[str, Any], settings: Mapping[str, Any]) -> AnalysisCase:
+def make_case(arrays: Mapping[str, np.ndarray], settings: StageSettings) -> AnalysisCase:
     """Build the same from the arrays of mesh.npz; raises `ValueError` for such supports."""
-    sizing, material = settings["sizing"], Material(**settings["material"])
+    material, sizing = settings.material, settings.sizing
     model = build_model(
         mesh_from_arrays(arrays),
         arrays["supported_nodes"],
         material.poissons_ratio,
         fixed_thickness=arrays.get("fixed_thickness"),
     )
-    plan = LoadPlan(Loads(**settings["loads"]), **settings["combinations"])
-    asked = sizing["rule"] in NEED_CONSTRAINTS
-    factor_min = sizing["thinning_buckling_factor_min"] if asked else None
-    options = AnalysisOptions(**settings["analysis"])
-    return AnalysisCase(model, material, plan, options, make_stop_rule(sizing), factor_min)
+    cases = make_load_cases(settings.loads, material.unit_weight)
+    asked = sizing.rule in NEED_CONSTRAINTS
+    factor_min = sizing.thinning_buckling_factor_min if asked else None
+    return AnalysisCase(
+        model, material, cases, settings.combinations, settings.analysis, sizing, factor_min
+    )

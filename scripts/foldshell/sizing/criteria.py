@@ -6,25 +6,11 @@ from typing import Any
 
 import numpy as np
 
+from foldshell.settings.sizing import Sizing
+
 STATIONARY_ITERATIONS = 3
 """Iterations in a row over which `stop: stationary` asks for a small change of volume: each may
 take an equal share of `volume_change_max_relative`. Of slow rules a single change says little."""
-
-
-@dataclass(frozen=True)
-class StopRule:
-    """Limits of the loop: lengths in m, volumes in m3."""
-
-    least_thickness: float
-    largest_thickness: float
-    utilization_min: float
-    utilization_max: float
-    displacement_limit_span_over: float
-    volume_change_max: float
-    volume_change_max_relative: float
-    iterations_max: int
-    stop: str
-    measure: str
 
 
 @dataclass(frozen=True)
@@ -57,24 +43,24 @@ class Verdict:
     stationary_iterations: int
 
 
-def judge_iteration(now: IterationState, rule: StopRule) -> Verdict:
+def judge_iteration(now: IterationState, sizing: Sizing) -> Verdict:
     """Compare an analysis with Table 3 and say whether and why the loop ends."""
     if now.state == "mechanism":
         return Verdict("unstable", now.reason, {}, 0)
     if now.state == "unstable":
-        return _judge_unstable(now, rule)
-    criteria = evaluate_criteria(now, rule)
+        return _judge_unstable(now, sizing)
+    criteria = evaluate_criteria(now, sizing)
     change = criteria["volume_change_relative"]["value"]
-    share = rule.volume_change_max_relative / STATIONARY_ITERATIONS
+    share = sizing.volume_change_max_relative / STATIONARY_ITERATIONS
     small = change is not None and change < share
     stationary_iterations = now.previous_stationary + 1 if small else 0
     open_names = [name for name, item in criteria.items() if not item["met"]]
-    settled = rule.stop == "table3" or stationary_iterations >= STATIONARY_ITERATIONS
+    settled = sizing.stop == "table3" or stationary_iterations >= STATIONARY_ITERATIONS
     if now.state == "ok" and not open_names and settled:
         return Verdict("converged", "all criteria are met", criteria, stationary_iterations)
-    failing = _describe(now, rule, criteria, open_names)
-    if now.state == "ok" and open_names == ["utilization_min"] and _thinnest(now, rule):
-        reason = f"every panel stands at the least thickness of {1e3 * rule.least_thickness:g} mm"
+    failing = _describe(now, sizing, criteria, open_names)
+    if now.state == "ok" and open_names == ["utilization_min"] and _thinnest(now, sizing):
+        reason = f"every panel stands at the least thickness of {1e3 * sizing.least_thickness:g} mm"
         return Verdict(
             "at_minimum_thickness", f"{reason}; {failing}", criteria, stationary_iterations
         )
@@ -85,34 +71,36 @@ def judge_iteration(now: IterationState, rule: StopRule) -> Verdict:
             criteria,
             stationary_iterations,
         )
-    if now.iteration >= rule.iterations_max:
-        reason = f"{rule.iterations_max} iterations are used up; {failing or 'not stationary'}"
+    if now.iteration >= sizing.iterations_max:
+        reason = f"{sizing.iterations_max} iterations are used up; {failing or 'not stationary'}"
         return Verdict("not_converged", reason, criteria, stationary_iterations)
     return Verdict(
         "continue", failing or now.reason or "not stationary yet", criteria, stationary_iterations
     )
 
 
-def evaluate_criteria(now: IterationState, rule: StopRule) -> dict[str, dict[str, object]]:
+def evaluate_criteria(now: IterationState, sizing: Sizing) -> dict[str, dict[str, object]]:
     """Return {name: value, limit, met} of Table 3, of the relative change of volume, and of the
     edge beam where there is one."""
     highest = float(now.utilization.max())
-    limit = now.span / rule.displacement_limit_span_over
+    limit = now.span / sizing.displacement_limit_span_over
     change = None if now.previous_volume is None else abs(now.volume - now.previous_volume)
     relative = None if change is None else change / now.previous_volume
     criteria = {
-        "utilization_max": _below(highest, rule.utilization_max, closed=True),
+        "utilization_max": _below(highest, sizing.utilization_max, closed=True),
         "utilization_min": {
             "value": highest,
-            "limit": rule.utilization_min,
-            "met": highest >= rule.utilization_min,
+            "limit": sizing.utilization_min,
+            "met": highest >= sizing.utilization_min,
         },
         "displacement_vertical_m": _below(now.displacement, limit),
-        "volume_change_m3": _below(change, rule.volume_change_max),
-        "volume_change_relative": _below(relative, rule.volume_change_max_relative),
+        "volume_change_m3": _below(change, sizing.volume_change_max),
+        "volume_change_relative": _below(relative, sizing.volume_change_max_relative),
     }
     if now.edge_beam is not None:
-        criteria["edge_beam_utilization"] = _below(now.edge_beam, rule.utilization_max, closed=True)
+        criteria["edge_beam_utilization"] = _below(
+            now.edge_beam, sizing.utilization_max, closed=True
+        )
     return criteria
 
 
@@ -121,18 +109,18 @@ def _below(value: float | None, limit: float, closed: bool = False) -> dict[str,
     return {"value": value, "limit": limit, "met": met}
 
 
-def _judge_unstable(now: IterationState, rule: StopRule) -> Verdict:
-    if now.iteration >= rule.iterations_max:
-        reason = f"{rule.iterations_max} iterations are used up; {now.reason}"
+def _judge_unstable(now: IterationState, sizing: Sizing) -> Verdict:
+    if now.iteration >= sizing.iterations_max:
+        reason = f"{sizing.iterations_max} iterations are used up; {now.reason}"
         return Verdict("unstable", reason, {}, 0)
-    if (now.thickness >= rule.largest_thickness).all():
-        largest = f"{1e3 * rule.largest_thickness:g} mm"
+    if (now.thickness >= sizing.largest_thickness).all():
+        largest = f"{1e3 * sizing.largest_thickness:g} mm"
         return Verdict("unstable", f"{now.reason} at the largest thickness of {largest}", {}, 0)
     return Verdict("continue", now.reason, {}, 0)
 
 
-def _thinnest(now: IterationState, rule: StopRule) -> bool:
-    return bool((now.thickness <= rule.least_thickness).all())
+def _thinnest(now: IterationState, sizing: Sizing) -> bool:
+    return bool((now.thickness <= sizing.least_thickness).all())
 
 
 def _unchanged(now: IterationState) -> bool:
@@ -140,13 +128,13 @@ def _unchanged(now: IterationState) -> bool:
     return before is not None and np.array_equal(before, now.thickness)
 
 
-def _describe(now, rule: StopRule, criteria, open_names: list[str]) -> str:
+def _describe(now, sizing: Sizing, criteria, open_names: list[str]) -> str:
     """Say which criteria are open, with values and panels."""
     words = []
     for name in open_names:
         item = criteria[name]
         if name == "utilization_max":
-            above = np.flatnonzero(now.utilization > rule.utilization_max)
+            above = np.flatnonzero(now.utilization > sizing.utilization_max)
             worst = above[np.argsort(-now.utilization[above], kind="stable")][:8].tolist()
             more = f" and {len(above) - 8} more" if len(above) > 8 else ""
             value, limit = _show_both(item)

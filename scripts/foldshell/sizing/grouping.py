@@ -42,7 +42,7 @@ def analyse_classes(
     count : classes allowed
     """
     area = panel_area(case.model)[: case.model.sized_panels]
-    limit = case.rule.utilization_max
+    limit = case.sizing.utilization_max
     needed = arrays["thickness"]
     before = {"buckling_modes": arrays["buckling_modes"]} if "buckling_modes" in arrays else {}
     for raised in range(ROUNDS_MAX + 1):
@@ -50,11 +50,11 @@ def analyse_classes(
         thickness = round_thickness(groups.thickness)
         task = IterationTask(last["iteration"], span, thickness, {}, before)
         found, fields = replace(case, factor_min=None).run(task)
-        share = fields.get(f"utilization_{case.rule.measure}", np.zeros(1)) / limit
+        share = fields.get(f"utilization_{case.sizing.measure}", np.zeros(1)) / limit
         if found["state"] != "ok" or share.max() <= 1 or raised == ROUNDS_MAX:
             break
         more = np.where(share > 1, thickness * share * SAFETY, needed)
-        raised_to = np.minimum(np.maximum(needed, more), case.rule.largest_thickness)
+        raised_to = np.minimum(np.maximum(needed, more), case.sizing.largest_thickness)
         needed = round_thickness(raised_to)
     report = {
         **_judge(found),

@@ -13,9 +13,13 @@ from foldshell.checks.utilization import (
     compute_utilization,
     panel_utilization,
 )
-from foldshell.loads.cases import Loads, combination_matrix
+from foldshell.loads.cases import SurfaceLoad, combination_matrix
+from foldshell.settings.analysis import Analysis
+from foldshell.settings.field import list_settings
+from foldshell.settings.loads import Combinations
 from foldshell.settings.material import Material
-from foldshell.shell.analysis import AnalysisOptions, AnalysisResult, ShellModel, analyse_shell
+from foldshell.settings.sizing import Sizing
+from foldshell.shell.analysis import AnalysisResult, ShellModel, analyse_shell
 from foldshell.shell.results import (
     largest_downward,
     panel_area,
@@ -24,10 +28,10 @@ from foldshell.shell.results import (
     support_reactions,
     translations,
 )
-from foldshell.sizing.criteria import IterationState, StopRule, Verdict, judge_iteration
+from foldshell.sizing.criteria import IterationState, Verdict, judge_iteration
 from foldshell.sizing.linearise import linearise_constraints
 
-MEASURES = ("panel_mean", "element_max")
+MEASURES = list_settings(Sizing)["measure"].choices
 """Utilization of a panel: area mean over its cells, or its largest cell; see
 `panel_utilization`."""
 
@@ -45,29 +49,16 @@ class IterationTask:
 
 
 @dataclass(frozen=True)
-class LoadPlan:
-    """Loads, and combinations of the two groups by name."""
-
-    loads: Loads
-    strength: Mapping[str, Mapping[str, float]]
-    deflection: Mapping[str, Mapping[str, float]]
-
-    @property
-    def combinations(self) -> dict[str, Mapping[str, float]]:
-        """All combinations, strength first."""
-        return {**self.strength, **self.deflection}
-
-
-@dataclass(frozen=True)
 class AnalysisCase:
     """A design ready for any thickness; `factor_min`, the buckling factor to keep, is None where no
     constraints are asked for."""
 
     model: ShellModel
     material: Material
-    plan: LoadPlan
-    options: AnalysisOptions
-    rule: StopRule
+    cases: tuple[SurfaceLoad, ...]
+    combinations: Combinations
+    options: Analysis
+    sizing: Sizing
     factor_min: float | None
 
     def run(self, task: IterationTask) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
@@ -118,22 +109,20 @@ class _Analysed:
     @property
     def downward(self) -> tuple[float, int, str]:
         """Largest downward displacement (m) of the deflection combinations, node, combination."""
-        plan = self.case.plan
-        deflection = self.result.displacement[:, len(plan.strength) :]
-        return largest_downward(self.case.model, deflection, list(plan.deflection))
+        groups = self.case.combinations
+        deflection = self.result.displacement[:, len(groups.strength) :]
+        return largest_downward(self.case.model, deflection, list(groups.deflection))
 
 
 def _analyse(case: AnalysisCase, task: IterationTask) -> _Analysed:
-    model, material, plan = case.model, case.material, case.plan
+    model, material, groups = case.model, case.material, case.combinations
     thickness = model.to_elements(task.thickness)
     modes = task.previous_arrays.get("buckling_modes")
-    result = analyse_shell(
-        model, thickness, material, plan.loads, plan.combinations, case.options, modes
-    )
+    result = analyse_shell(model, thickness, material, case.cases, groups.all, case.options, modes)
     done = _Analysed(case, task, thickness, result)
     if result.state not in ("ok", "not_converged"):
         return done
-    strength = result.displacement[:, : len(plan.strength)]
+    strength = result.displacement[:, : len(groups.strength)]
     utilization = compute_utilization(model, strength, thickness, material)
     panels, edge_beam_panels = {}, {}
     for name in MEASURES:
@@ -184,15 +173,15 @@ def _largest_residual(result: AnalysisResult) -> float | None:
 
 
 def _judge(done: _Analysed, volume: float) -> Verdict:
-    task, result, rule = done.task, done.result, done.case.rule
-    edge_beam = done.edge_beam_panels.get(rule.measure, np.empty(0))
+    task, result, sizing = done.task, done.result, done.case.sizing
+    edge_beam = done.edge_beam_panels.get(sizing.measure, np.empty(0))
     return judge_iteration(
         IterationState(
             iteration=task.iteration,
             state=result.state,
             reason=result.reason,
             thickness=task.thickness,
-            utilization=done.panels.get(rule.measure),
+            utilization=done.panels.get(sizing.measure),
             displacement=np.nan if done.utilization is None else done.downward[0],
             span=task.span,
             volume=volume,
@@ -201,19 +190,20 @@ def _judge(done: _Analysed, volume: float) -> Verdict:
             previous_stationary=task.previous.get("stationary_iterations", 0),
             edge_beam=float(edge_beam.max()) if len(edge_beam) else None,
         ),
-        rule,
+        sizing,
     )
 
 
 def _describe_sheet(done: _Analysed) -> tuple[dict[str, Any], dict[str, np.ndarray]]:
     """Return utilization of the sheet, displacement and reactions."""
-    model, rule, thickness = done.case.model, done.case.rule, done.task.thickness
+    model, sizing, thickness = done.case.model, done.case.sizing, done.task.thickness
     down, node, combination = done.downward
     reactions = support_reactions(model, done.result, done.thickness, done.case.material)
     sums = reactions.sum(axis=0).T.tolist()
     sheet = slice(0, int((~model.self_weight_only).sum()))
     area, cell = model.operators.geometry.area[sheet], done.utilization.cell[sheet]
-    at_bound = (thickness <= rule.least_thickness) | (thickness >= rule.largest_thickness)
+    least, largest = sizing.least_thickness, sizing.largest_thickness
+    at_bound = (thickness <= least) | (thickness >= largest)
     report = {
         "utilization_max": float(cell.max()),
         "utilization_p99": area_percentile(model, done.utilization.point[sheet]),
@@ -225,7 +215,7 @@ def _describe_sheet(done: _Analysed) -> tuple[dict[str, Any], dict[str, np.ndarr
         "reaction_sum_kn": dict(zip(done.result.names, sums, strict=True)),
         "reaction_imbalance": reaction_imbalance(model, done.result, reactions),
         "panels_at_bound": int(at_bound.sum()),
-        "panels_above_one": int((done.panels[rule.measure] > rule.utilization_max).sum()),
+        "panels_above_one": int((done.panels[sizing.measure] > sizing.utilization_max).sum()),
     }
     return report, {f"utilization_{name}": values for name, values in done.panels.items()}
 
@@ -249,10 +239,10 @@ def _describe_edge_beam(done: _Analysed) -> tuple[dict[str, Any], dict[str, np.n
 
 def _linearise(done: _Analysed, factor_min: float) -> dict[str, np.ndarray]:
     case = done.case
-    factors = combination_matrix(case.plan.combinations)
+    factors = combination_matrix(case.combinations.all, [one.case for one in case.cases])
     return linearise_constraints(
         case.model, done.result, done.thickness, case.material, factors, done.utilization,
-        case.rule, done.task.span, factor_min,
+        case.sizing, done.task.span, factor_min,
     ).to_arrays()  # fmt: skip
 
 

@@ -11,11 +11,11 @@ import numpy as np
 
 from foldshell.checks.utilization import Utilization, panel_utilization
 from foldshell.settings.material import Material
+from foldshell.settings.sizing import Sizing
 from foldshell.shell.analysis import AnalysisResult, ShellModel
 from foldshell.shell.results import panel_area, translations
 from foldshell.sizing.adjoint import AdjointModel, open_adjoint
 from foldshell.sizing.constraints import Constraints
-from foldshell.sizing.criteria import StopRule
 from foldshell.sizing.stress_adjoint import utilization_gradient
 
 ACTIVE = 0.7
@@ -35,7 +35,7 @@ def linearise_constraints(
     material: Material,
     factors: np.ndarray,
     utilization: Utilization,
-    rule: StopRule,
+    sizing: Sizing,
     span: float,
     factor_min: float,
 ) -> Constraints:
@@ -51,8 +51,8 @@ def linearise_constraints(
     adjoint = open_adjoint(model, result, thickness, material, factors)
     strength = utilization.combination.shape[0]
     parts = [
-        _utilization(adjoint, utilization, strength, rule),
-        _displacement(adjoint, strength, span / rule.displacement_limit_span_over),
+        _utilization(adjoint, utilization, strength, sizing),
+        _displacement(adjoint, strength, span / sizing.displacement_limit_span_over),
         _buckling(adjoint, factor_min),
     ]
     value, gradient = (np.concatenate(items) for items in zip(*parts, strict=True))
@@ -60,12 +60,12 @@ def linearise_constraints(
     return Constraints(value, gradient[:, sized], panel_area(model)[sized])
 
 
-def _utilization(adjoint: AdjointModel, utilization: Utilization, strength: int, rule: StopRule):
-    measured = panel_utilization(adjoint.model, utilization.cell, rule.measure)
-    share = measured / rule.utilization_max
+def _utilization(adjoint: AdjointModel, utilization: Utilization, strength: int, sizing: Sizing):
+    measured = panel_utilization(adjoint.model, utilization.cell, sizing.measure)
+    share = measured / sizing.utilization_max
     panels = np.flatnonzero(share > ACTIVE)
-    gradient = utilization_gradient(adjoint, utilization, panels, strength, rule.measure)
-    return share[panels], gradient / rule.utilization_max
+    gradient = utilization_gradient(adjoint, utilization, panels, strength, sizing.measure)
+    return share[panels], gradient / sizing.utilization_max
 
 
 def _displacement(adjoint: AdjointModel, strength: int, limit: float):

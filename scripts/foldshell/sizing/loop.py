@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from foldshell.settings.sizing import Sizing
 from foldshell.sizing.case import AnalysisCase
 from foldshell.sizing.iteration import IterationTask
 from foldshell.sizing.rounding import round_thickness
@@ -20,12 +21,12 @@ class LoopResult:
     arrays: dict[str, np.ndarray]
 
 
-def run_loop(case: AnalysisCase, span: float, sizing: Mapping[str, Any]) -> LoopResult:
+def run_loop(case: AnalysisCase, span: float, sizing: Sizing) -> LoopResult:
     """Analyse and resize from the start thickness until a verdict ends the loop.
 
     Every number equals that of the loop in files, to the last bit.
     """
-    thickness = round_thickness(np.full(case.model.sized_panels, sizing["start_thickness"]))
+    thickness = round_thickness(np.full(case.model.sized_panels, sizing.start_thickness))
     reports: list[dict[str, Any]] = []
     report: dict[str, Any] = {}
     arrays: dict[str, np.ndarray] = {}

@@ -4,8 +4,9 @@ from dataclasses import replace
 
 import numpy as np
 
+from foldshell.settings.sizing import Sizing
 from foldshell.sizing.constraints import Constraints
-from foldshell.sizing.rules import SizingLimits, SizingState
+from foldshell.sizing.rules import SizingState
 
 MARGIN = 0.99
 """Share of each limit that a step aims at: later iterations then stay inside of it."""
@@ -21,7 +22,7 @@ CHANGE_LEAST = 1e-3
 """Least move limit; relative change below which a panel counts as standing."""
 
 
-def optimality(state: SizingState, limits: SizingLimits) -> SizingState:
+def optimality(state: SizingState, sizing: Sizing) -> SizingState:
     """Minimise the volume of the linearised problem, each panel within its own move limit.
 
     Raises `ValueError` where the analysis left no constraints.
@@ -29,8 +30,8 @@ def optimality(state: SizingState, limits: SizingLimits) -> SizingState:
     if state.constraints is None:
         raise ValueError("the analysis holds no constraint gradients: it was made for another rule")
     lower = state.thickness * (1 - state.step) if state.may_thin else state.thickness
-    lower = np.clip(lower, limits.least_thickness, limits.largest_thickness)
-    upper = np.clip(state.thickness * (1 + state.step), lower, limits.largest_thickness)
+    lower = np.clip(lower, sizing.least_thickness, sizing.largest_thickness)
+    upper = np.clip(state.thickness * (1 + state.step), lower, sizing.largest_thickness)
     thickness = minimise_volume(state.thickness, lower, upper, state.constraints)
     change = thickness / state.thickness - 1
     wish = np.where(np.abs(change) > CHANGE_LEAST, np.sign(change), 0).astype(np.int64)

@@ -4,6 +4,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from foldshell.settings.sizing import Sizing
 from foldshell.sizing.constraints import Constraints
 
 SIGN_CHANGES_MAX = 3
@@ -29,16 +30,6 @@ class SizingState:
     step_max: float = np.inf
 
 
-@dataclass(frozen=True)
-class SizingLimits:
-    """Bounds of thickness (m) and of utilization."""
-
-    least_thickness: float
-    largest_thickness: float
-    utilization_min: float
-    utilization_max: float
-
-
 def start_state(thickness: np.ndarray, step: float) -> SizingState:
     """Return the state before the first change; utilization is not known yet. thickness (P,) m."""
     zero = np.zeros(len(thickness), dtype=np.int64)
@@ -47,26 +38,26 @@ def start_state(thickness: np.ndarray, step: float) -> SizingState:
     )
 
 
-def dead_band(state: SizingState, limits: SizingLimits) -> SizingState:
+def dead_band(state: SizingState, sizing: Sizing) -> SizingState:
     """Grow by the step above the upper limit, shrink below the lower one, keep in between."""
-    wish = np.where(state.utilization > limits.utilization_max, 1, 0)
-    wish = np.where(state.utilization < limits.utilization_min, -1, wish)
-    return _step(state, wish, limits)
+    wish = np.where(state.utilization > sizing.utilization_max, 1, 0)
+    wish = np.where(state.utilization < sizing.utilization_min, -1, wish)
+    return _step(state, wish, sizing)
 
 
-def fully_stressed(state: SizingState, limits: SizingLimits) -> SizingState:
+def fully_stressed(state: SizingState, sizing: Sizing) -> SizingState:
     """Grow above the upper limit, else shrink: the words of the paper, kept for comparison."""
-    wish = np.where(state.utilization > limits.utilization_max, 1, -1)
-    return _step(state, wish, limits)
+    wish = np.where(state.utilization > sizing.utilization_max, 1, -1)
+    return _step(state, wish, sizing)
 
 
-def thicken_all(state: SizingState, limits: SizingLimits, step: float) -> SizingState:
+def thicken_all(state: SizingState, sizing: Sizing, step: float) -> SizingState:
     """Grow every panel by one step, as is done when a structure is unstable or too soft."""
-    thickness = np.minimum(state.thickness * (1 + step), limits.largest_thickness)
+    thickness = np.minimum(state.thickness * (1 + step), sizing.largest_thickness)
     return replace(state, thickness=thickness)
 
 
-def _step(state: SizingState, wish: np.ndarray, limits: SizingLimits) -> SizingState:
+def _step(state: SizingState, wish: np.ndarray, sizing: Sizing) -> SizingState:
     """Move each panel by its own step, which is halved after repeated changes of direction."""
     wish = wish if state.may_thin else np.maximum(wish, 0)
     turned = wish * state.direction < 0
@@ -74,7 +65,7 @@ def _step(state: SizingState, wish: np.ndarray, limits: SizingLimits) -> SizingS
     halve = turned & (sign_changes % SIGN_CHANGES_MAX == 0)
     step = np.where(halve, state.step / 2, state.step)
     thickness = np.clip(
-        state.thickness * (1 + wish * step), limits.least_thickness, limits.largest_thickness
+        state.thickness * (1 + wish * step), sizing.least_thickness, sizing.largest_thickness
     )
     direction = np.where(wish == 0, state.direction, wish)
     return replace(

@@ -6,11 +6,11 @@ from typing import Any
 
 import numpy as np
 
+from foldshell.settings.sizing import Sizing
 from foldshell.sizing.constraints import Constraints, read_constraints
 from foldshell.sizing.optimality import optimality
 from foldshell.sizing.rounding import round_thickness
 from foldshell.sizing.rules import (
-    SizingLimits,
     SizingState,
     dead_band,
     fully_stressed,
@@ -18,7 +18,7 @@ from foldshell.sizing.rules import (
     thicken_all,
 )
 
-RULES: dict[str, Callable[[SizingState, SizingLimits], SizingState]] = {
+RULES: dict[str, Callable[[SizingState, Sizing], SizingState]] = {
     "dead_band": dead_band,
     "fully_stressed": fully_stressed,
     "optimality": optimality,
@@ -30,21 +30,9 @@ NEED_CONSTRAINTS = ("optimality",)
 """Rules that work on the linearised constraints of the analysis."""
 
 
-@dataclass(frozen=True)
-class StepRule:
-    """Settings of the step: rule name, relative step, least factor at which panels may thin, and
-    the relative move limit of rules that work on constraints."""
-
-    rule: str
-    step: float
-    thinning_buckling_factor_min: float
-    limits: SizingLimits
-    move_limit: float = 0.3
-
-    @property
-    def first_step(self) -> float:
-        """Relative step of every panel at the start."""
-        return self.move_limit if self.rule in NEED_CONSTRAINTS else self.step
+def first_step(sizing: Sizing) -> float:
+    """Return the relative step of every panel at the start."""
+    return sizing.move_limit if sizing.rule in NEED_CONSTRAINTS else sizing.step
 
 
 @dataclass(frozen=True)
@@ -56,24 +44,15 @@ class NextStep:
     memory: dict[str, np.ndarray]
 
 
-def make_step_rule(sizing: Mapping[str, Any]) -> StepRule:
-    """Return the settings of the step from the plain settings of the stage `resize`."""
-    limits = SizingLimits(**{name: sizing[name] for name in SizingLimits.__dataclass_fields__})
-    names = ("rule", "step", "thinning_buckling_factor_min", "move_limit")
-    return StepRule(**{name: sizing[name] for name in names}, limits=limits)
-
-
-def summarise_step(
-    design: str, analysis: Mapping[str, Any], sizing: Mapping[str, Any]
-) -> dict[str, Any]:
+def summarise_step(design: str, analysis: Mapping[str, Any], sizing: Sizing) -> dict[str, Any]:
     """Return what the workbook of the next iteration says on its summary, by keys with units."""
     return {
         "design": design,
         "iteration": analysis["iteration"] + 1,
         "verdict": f"{analysis['verdict']}: {analysis['reason']}",
         "volume_m3": analysis["volume_m3"],
-        **{f"{name}_m": sizing[name] for name in ("least_thickness", "largest_thickness")},
-        **{name: sizing[name] for name in ("utilization_min", "utilization_max")},
+        **{f"{name}_m": getattr(sizing, name) for name in ("least_thickness", "largest_thickness")},
+        **{name: getattr(sizing, name) for name in ("utilization_min", "utilization_max")},
     }
 
 
@@ -81,19 +60,19 @@ def take_step(
     analysis: Mapping[str, Any],
     arrays: Mapping[str, np.ndarray],
     memory: Mapping[str, np.ndarray],
-    sizing: Mapping[str, Any],
+    sizing: Sizing,
 ) -> NextStep:
     """Return the thickness (P,) m that follows an analysis, rounded as workbooks hold it.
 
     `analysis` and `arrays` are the contents of analysis.json and analysis.npz, `memory` that of
-    the step before (empty at the start), `sizing` the plain settings of the stage `resize`.
+    the step before (empty at the start), `sizing` the settings.
     """
     following = propose_thickness(
         analysis,
         arrays["thickness"],
-        choose_utilization(arrays, sizing["measure"]),
+        choose_utilization(arrays, sizing.measure),
         memory,
-        make_step_rule(sizing),
+        sizing,
         read_constraints(arrays),
     )
     new = round_thickness(following.thickness)
@@ -101,13 +80,13 @@ def take_step(
     return replace(following, thickness=new, note=_add_note(following.note, relieving))
 
 
-def _relieves_edge_beam(arrays: Mapping[str, np.ndarray], sizing: Mapping[str, Any]) -> np.ndarray:
+def _relieves_edge_beam(arrays: Mapping[str, np.ndarray], sizing: Sizing) -> np.ndarray:
     """Return which panels (P,) are within their own limit, but not the edge beam that they hold."""
-    own = arrays.get(f"utilization_{sizing['measure']}")
+    own = arrays.get(f"utilization_{sizing.measure}")
     if own is None:
         return np.zeros(len(arrays["thickness"]), bool)
-    limit = sizing["utilization_max"]
-    return (own <= limit) & (choose_utilization(arrays, sizing["measure"]) > limit)
+    limit = sizing.utilization_max
+    return (own <= limit) & (choose_utilization(arrays, sizing.measure) > limit)
 
 
 def _add_note(notes: tuple[str, ...], relieving: np.ndarray) -> tuple[str, ...]:
@@ -136,7 +115,7 @@ def propose_thickness(
     thickness: np.ndarray,
     utilization: np.ndarray | None,
     memory: Mapping[str, np.ndarray],
-    rule: StepRule,
+    sizing: Sizing,
     constraints: Constraints | None = None,
 ) -> NextStep:
     """Apply the sizing rule, or thicken everything where the state does not allow it.
@@ -154,29 +133,29 @@ def propose_thickness(
     memory : arrays of the step before; empty at the start
     constraints : of the analysis, for rules in `NEED_CONSTRAINTS`
     """
-    state = _restore(thickness, memory, rule.first_step)
+    state = _restore(thickness, memory, first_step(sizing))
     if analysis["state"] != "ok":
-        return _recover(state, memory, rule, analysis)
+        return _recover(state, memory, sizing, analysis)
     factors = [value for value in analysis["buckling_factor"].values() if value is not None]
     stiff = analysis["criteria"]["displacement_vertical_m"]["met"]
-    safe = min(factors, default=np.inf) >= rule.thinning_buckling_factor_min
-    if rule.rule in NEED_CONSTRAINTS:
+    safe = min(factors, default=np.inf) >= sizing.thinning_buckling_factor_min
+    if sizing.rule in NEED_CONSTRAINTS:
         stiff = True
     state = replace(
         state,
         utilization=utilization,
         may_thin=bool(stiff and safe),
         constraints=constraints,
-        step_max=rule.move_limit,
+        step_max=sizing.move_limit,
     )
-    if not stiff and not (utilization > rule.limits.utilization_max).any():
-        following = thicken_all(state, rule.limits, rule.step)
+    if not stiff and not (utilization > sizing.utilization_max).any():
+        following = thicken_all(state, sizing, sizing.step)
         note = "displacement above its limit"
     else:
-        following = RULES[rule.rule](state, rule.limits)
+        following = RULES[sizing.rule](state, sizing)
         note = "" if state.may_thin else _explain(stiff)
     return NextStep(
-        following.thickness, _notes(following, rule.limits, note), _memory(following, thickness, 0)
+        following.thickness, _notes(following, sizing, note), _memory(following, thickness, 0)
     )
 
 
@@ -189,15 +168,13 @@ def _restore(thickness, memory: Mapping[str, np.ndarray], step: float) -> Sizing
     )
 
 
-def _recover(state, memory, rule: StepRule, analysis: Mapping[str, Any]) -> NextStep:
+def _recover(state, memory, sizing: Sizing, analysis: Mapping[str, Any]) -> NextStep:
     failures = int(memory["failures"]) + 1 if memory else 1
     stable = memory["stable"] if memory and memory["stable"].size else None
     base = state.thickness if stable is None else stable
     steps = 1 if stable is None else failures
-    following = thicken_all(
-        replace(state, thickness=base), rule.limits, (1 + rule.step) ** steps - 1
-    )
-    if rule.rule in NEED_CONSTRAINTS:
+    following = thicken_all(replace(state, thickness=base), sizing, (1 + sizing.step) ** steps - 1)
+    if sizing.rule in NEED_CONSTRAINTS:
         following = replace(following, step=following.step / 2)
     kept = np.empty(0) if stable is None else stable
     note = (analysis["reason"],) * len(base)
@@ -218,8 +195,8 @@ def _explain(stiff: bool) -> str:
     return "no thinning: " + ("buckling factor" if stiff else "displacement")
 
 
-def _notes(state: SizingState, limits: SizingLimits, note: str) -> tuple[str, ...]:
-    at_least = state.thickness <= limits.least_thickness
-    at_most = state.thickness >= limits.largest_thickness
+def _notes(state: SizingState, sizing: Sizing, note: str) -> tuple[str, ...]:
+    at_least = state.thickness <= sizing.least_thickness
+    at_most = state.thickness >= sizing.largest_thickness
     words = np.where(at_least, "least thickness", np.where(at_most, "largest thickness", ""))
     return tuple("; ".join(filter(None, (word, note))) for word in words.tolist())

@@ -5,6 +5,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from foldshell.settings.loads import LOAD_CASES, Combinations
 from foldshell.workbook.history import add_history_sheets
 from foldshell.workbook.panels import FloatArray, IntArray, PanelGrid
 from foldshell.workbook.styles import (
@@ -17,15 +18,13 @@ from foldshell.workbook.styles import (
 )
 from foldshell.workbook.tables import Row, make_column, make_columns, write_table
 
-_CASES = ("SW", "SDL", "LL", "WX", "WY")
-
 
 @dataclass(frozen=True)
 class DesignReport:
     """What `design.xlsx` shows, as plain values.
 
     `verdict` and `loads` map keys with unit suffixes to values; `criteria` maps a name to value,
-    limit and met, as in analysis.json; `combinations` maps a name to factors of load cases;
+    limit and met, as in analysis.json; `combinations` have factors of load cases by name;
     `settings`, `versions` and `sources` fill the sheet of notes. thickness in m, (P,) each.
     """
 
@@ -38,7 +37,7 @@ class DesignReport:
     history: Sequence[Row]
     thickness_class: IntArray | None = None
     loads: Mapping[str, Any] = field(default_factory=dict)
-    combinations: Mapping[str, Mapping[str, Mapping[str, float]]] = field(default_factory=dict)
+    combinations: Combinations = field(default_factory=Combinations)
     settings: Mapping[str, Any] = field(default_factory=dict)
     versions: Mapping[str, str] = field(default_factory=dict)
     sources: Sequence[str] = ()
@@ -112,15 +111,15 @@ def _add_loads(book: Any, styles: Styles, report: DesignReport) -> None:
     row = write_pairs(sheet, styles, 2, report.loads) + 1
     sheet.write_string(row, 0, "Combinations: factors of the load cases", styles["title"])
     row += 2
-    for column, name in enumerate(("combination", "for", *_CASES)):
+    for column, name in enumerate(("combination", "for", *LOAD_CASES)):
         style = "header" if column < 2 else "header_number"
         sheet.write_string(row, column, name, styles[style])
-    for purpose, group in report.combinations.items():
+    for purpose, group in vars(report.combinations).items():
         for name, factors in group.items():
             row += 1
             sheet.write_string(row, 0, name, styles["text"])
             sheet.write_string(row, 1, purpose, styles["text"])
-            for column, case in enumerate(_CASES, start=2):
+            for column, case in enumerate(LOAD_CASES, start=2):
                 if factors.get(case):
                     sheet.write_number(row, column, factors[case], styles["general"])
 

@@ -7,6 +7,8 @@ import numpy as np
 
 from foldshell.results.gather import Iterations
 from foldshell.results.history import EDGE_BEAM_KEYS, find_least_factor
+from foldshell.settings.design import Design
+from foldshell.settings.stage import StageSettings
 from foldshell.workbook.design import DesignReport
 from foldshell.workbook.panels import make_panel_grid
 
@@ -36,8 +38,8 @@ EDGE_BEAM = ("edge_beam_volume_m3", *EDGE_BEAM_KEYS)
 
 def make_design_report(
     iterations: Iterations,
-    design: Mapping[str, Any],
-    settings: Mapping[str, Any],
+    design: Design,
+    settings: StageSettings,
     settings_hash: str,
     versions: Mapping[str, str],
     grouped: Mapping[str, Any],
@@ -51,7 +53,11 @@ def make_design_report(
     """
     last = iterations.analyses[-1]
     verdict = {
-        **{name: value for name, value in design.items() if value or "edge_beam" not in name},
+        **{
+            name: value
+            for name, value in design.to_row().items()
+            if value or "edge_beam" not in name
+        },
         "verdict": last["verdict"],
         "reason": last["reason"],
         "iterations": len(iterations.analyses),
@@ -62,21 +68,21 @@ def make_design_report(
         "settings_hash": settings_hash,
     }
     return DesignReport(
-        title=f"Design {design['design']}",
+        title=f"Design {design.name}",
         verdict=verdict,
         criteria=last["criteria"],
-        grid=make_panel_grid(design["zigzag"], design["strip"]),
+        grid=make_panel_grid(design.zigzag, design.strip),
         thickness=iterations.thickness,
         utilization=iterations.utilization,
         thickness_class=panel_class,
         history=iterations.history,
         loads={f"{name}_kn_m2" if name in ("superimposed_dead", "live", "wind") else name: value
-               for name, value in settings["loads"].items()},
-        combinations=settings["combinations"],
-        settings=settings,
+               for name, value in vars(settings.loads).items()},
+        combinations=settings.combinations,
+        settings=settings.to_plain(),
         versions=versions,
         sources=SOURCES,
-        utilization_max=settings["sizing"]["utilization_max"],
+        utilization_max=settings.sizing.utilization_max,
     )  # fmt: skip
 
 

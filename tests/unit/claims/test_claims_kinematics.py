@@ -98,16 +98,16 @@ def _folded(mode, **quality):
 
 def test_foldability_is_judged_by_the_mode_of_the_paper():
     soft = {"planarity_max": 0.05, "angle_defect_max_rad": 0.2, "flat_foldability_max_rad": 0.03}
-    designs = [_folded("paper", **soft), _folded("rigid"), _folded("exact")]
+    designs = [_folded("elastic", **soft), _folded("rigid"), _folded("exact")]
     verdict, parts = kinematics.judge_foldability(designs).judge()
     assert verdict == "fails"
     assert parts["rigid foldability, mode rigid"] == "holds"
-    assert kinematics.judge_foldability([_folded("paper")]).judge()[0] == "holds"
-    some = [_folded("paper", flat_foldability_max_rad=0.2)]
+    assert kinematics.judge_foldability([_folded("elastic")]).judge()[0] == "holds"
+    some = [_folded("elastic", flat_foldability_max_rad=0.2)]
     assert kinematics.judge_foldability(some).judge()[0] == "mixed"
     assert kinematics.judge_foldability([_folded("exact")]).judge()[0] == "cannot_be_told"
 
 
 def test_edges_that_stretch_are_not_rigid():
-    (first, *_) = kinematics.judge_foldability([_folded("paper", edge_strain_max=0.02)]).findings
+    (first, *_) = kinematics.judge_foldability([_folded("elastic", edge_strain_max=0.02)]).findings
     assert first.verdict == "fails" and first.quantity == "edge_strain_max"

@@ -61,7 +61,7 @@ def test_a_model_is_read_as_written(tmp_path):
         (("material", "criterion"), "tresca", ["material.criterion", "von_mises"]),
         (("loads_kn_m2", "W"), -1, ["loads_kn_m2.W", "from 0"]),
         (("loads_kn_m2",), 3, ["loads_kn_m2", "object"]),
-        (("area_basis",), "volume", ["area_basis", "plan"]),
+        (("area_basis",), "volume", ["area_basis", "plan_abs"]),
         (("combinations", "S2", "SNOW"), 1.0, ["combinations.S2", "SNOW", "WX"]),
         (("combinations", "S2", "SW"), None, ["combinations.S2.SW"]),
         (("compare", "strength"), "S9", ["compare.strength", "S9"]),
@@ -148,7 +148,7 @@ def test_loads_follow_the_words_of_the_paper(tmp_path):
 
 def test_plan_area_and_the_sheets_side(tmp_path):
     data = describe_small_fold()
-    data["area_basis"] = "plan"
+    data["area_basis"] = "plan_abs"
     data["loads_kn_m2"]["dead_side"] = "sheet"
     cases = compute_surface_loads(read(tmp_path, data), np.tile([0.6, 0, -0.8], (12, 1)))
     np.testing.assert_allclose(cases[0, 2, 2], -0.8)

@@ -5,9 +5,11 @@ import pyvista
 
 from figure_cases import make_state
 from foldshell.exchange.design_vtu import write_design_vtu, write_lines_vtu
-from foldshell.results.design_view import Elasticity, Limits, make_design_view
+from foldshell.results.design_view import make_design_view
+from foldshell.settings.material import Material
+from foldshell.settings.sizing import Sizing
 
-ELASTICITY = Elasticity(31e6, 0.2)
+MATERIAL = Material()
 
 
 def read(path):
@@ -20,7 +22,7 @@ def read(path):
 def test_fields_stand_in_their_cells(tmp_path):
     """Thickness of each cell is its panel's; displacement at each node is the known field."""
     state = make_state(tmp_path)
-    write_design_vtu(tmp_path / "design.vtu", state, ELASTICITY)
+    write_design_vtu(tmp_path / "design.vtu", state, MATERIAL)
     points, cells, fields, nodal = read(tmp_path / "design.vtu")
     assert len(cells) == 2 * 20 * 2**2
     assert np.array_equal(fields["thickness"], np.linspace(0.05, 0.15, 20)[fields["panel"]])
@@ -38,7 +40,7 @@ def test_fields_stand_in_their_cells(tmp_path):
 def test_principal_forces_rebuild_the_tensor(tmp_path):
     """n1 d1 d1 + n2 d2 d2 has the components nx, ny, nxy in the facet's axes."""
     state = make_state(tmp_path, move=lambda x: 1e-3 * np.sin(x + x[:, [2, 0, 1]]))
-    write_design_vtu(tmp_path / "design.vtu", state, ELASTICITY)
+    write_design_vtu(tmp_path / "design.vtu", state, MATERIAL)
     points, cells, fields, _ = read(tmp_path / "design.vtu")
     corner = points[cells]
     normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
@@ -57,7 +59,7 @@ def test_principal_forces_rebuild_the_tensor(tmp_path):
 def test_unstable_design_keeps_what_there_is(tmp_path):
     """Without displacement and utilization only geometry and thickness are written."""
     state = make_state(tmp_path, utilization=None, move=lambda x: np.nan * x)
-    write_design_vtu(tmp_path / "design.vtu", state, ELASTICITY)
+    write_design_vtu(tmp_path / "design.vtu", state, MATERIAL)
     _, _, fields, nodal = read(tmp_path / "design.vtu")
     assert set(fields) == {"panel", "thickness", "thickness_class", "class_thickness"}
     assert set(nodal) == {"supported"}
@@ -67,7 +69,7 @@ def test_every_field_has_its_unit_and_meaning(tmp_path):
     """FieldData names each field once, with a unit; title, verdict and combinations are text."""
     state = make_state(tmp_path)
     factors = {"S1": {"SW": 1.4, "SDL": 1.4}}
-    write_design_vtu(tmp_path / "design.vtu", state, ELASTICITY, None, factors)
+    write_design_vtu(tmp_path / "design.vtu", state, MATERIAL, factors)
     grid = pyvista.read(tmp_path / "design.vtu")
     names = sorted([*grid.cell_data, *grid.point_data])
     assert sorted(line.split(" [")[0] for line in grid.field_data["units"]) == names
@@ -83,7 +85,7 @@ def test_every_field_has_its_unit_and_meaning(tmp_path):
 def test_fields_of_every_combination_and_their_envelopes(tmp_path):
     """D2 moves ten times as far as the others, so its forces are ten times theirs."""
     state = make_state(tmp_path, move=lambda x: 1e-3 * np.sin(x + x[:, [2, 0, 1]]))
-    write_design_vtu(tmp_path / "design.vtu", state, ELASTICITY)
+    write_design_vtu(tmp_path / "design.vtu", state, MATERIAL)
     _, _, fields, nodal = read(tmp_path / "design.vtu")
     for letter in "nmv":
         assert np.allclose(
@@ -109,7 +111,7 @@ def test_same_state_same_bytes(tmp_path):
     """The file depends on the fields alone."""
     state = make_state(tmp_path)
     for name in ("a.vtu", "b.vtu"):
-        write_design_vtu(tmp_path / name, state, ELASTICITY)
+        write_design_vtu(tmp_path / name, state, MATERIAL)
     assert (tmp_path / "a.vtu").read_bytes() == (tmp_path / "b.vtu").read_bytes()
 
 
@@ -120,7 +122,7 @@ def test_lines_carry_force_and_level(tmp_path):
         folded=False,
         move=lambda x: np.column_stack([1e-3 * x[:, 0], -1e-3 * x[:, 1], 0 * x[:, 0]]),
     )
-    view = make_design_view(state, 5.0, Limits(), ELASTICITY)
+    view = make_design_view(state, 5.0, Sizing(), MATERIAL)
     write_lines_vtu(tmp_path / "lines.vtu", view)
     points, cells, fields, _ = read(tmp_path / "lines.vtu")
     step = points[cells[:, 1]] - points[cells[:, 0]]
@@ -136,6 +138,6 @@ def test_lines_carry_force_and_level(tmp_path):
 def test_unstable_design_has_no_lines(tmp_path):
     """The file is there, with no cell in it."""
     state = make_state(tmp_path, utilization=None, move=lambda x: np.nan * x)
-    view = make_design_view(state, 5.0, Limits(), ELASTICITY)
+    view = make_design_view(state, 5.0, Sizing(), MATERIAL)
     write_lines_vtu(tmp_path / "lines.vtu", view)
     assert 'NumberOfCells="0"' in (tmp_path / "lines.vtu").read_text()

@@ -12,14 +12,16 @@ from foldshell.figures.camera import fit_camera
 from foldshell.figures.painter import paint_scenes
 from foldshell.figures.pictures import specify_planarity, specify_thickness
 from foldshell.figures.scene import Lines, Scene
-from foldshell.results.design_view import Elasticity, Limits, make_design_view
+from foldshell.results.design_view import make_design_view
+from foldshell.settings.material import Material
+from foldshell.settings.sizing import Sizing
 
 SIZE = (480, 330)
 
 
 def scene_of(folder, spec=specify_thickness):
     """Return the scene of a small folded sheet."""
-    view = make_design_view(make_state(folder), 5.0, Limits(), Elasticity(31e6, 0.2))
+    view = make_design_view(make_state(folder), 5.0, Sizing(), Material())
     return spec(view).scene
 
 

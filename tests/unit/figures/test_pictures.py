@@ -23,15 +23,17 @@ from foldshell.figures.pictures import (
 from foldshell.figures.render import render_scenes
 from foldshell.figures.scene import Scene
 from foldshell.results.colour_scales import ABOVE, COMPRESSION, TENSION, exaggeration
-from foldshell.results.design_view import Elasticity, Limits, make_design_view
+from foldshell.results.design_view import make_design_view
+from foldshell.settings.material import Material
+from foldshell.settings.sizing import Sizing
 
 SIZE = (640, 480)
-LIMITS, ELASTICITY = Limits(1.0, 240.0), Elasticity(31e6, 0.2)
+LIMITS, MATERIAL = Sizing(), Material()
 
 
 def subject_of(folder, **options):
     """Return a case as the view of pictures."""
-    return make_design_view(make_state(folder, **options), 5.0, LIMITS, ELASTICITY)
+    return make_design_view(make_state(folder, **options), 5.0, LIMITS, MATERIAL)
 
 
 def share_near(image, colour, distance=30):

@@ -4,7 +4,7 @@ import pytest
 
 from foldshell.files.errors import InputError
 from foldshell.files.plain_text import find_unsafe
-from foldshell.settings.schema import validate
+from foldshell.settings.make import make_settings
 from foldshell.workbook.tables import write_csv
 
 HOSTILE = [
@@ -18,11 +18,10 @@ PLAIN = ["C50/60", "béton C30 & acier", "surfaces/dôme 1.obj", "a-b_c", "1 > 0
 @pytest.mark.parametrize("text", HOSTILE)
 def test_hostile_text_is_refused_with_its_place(text):
     """The sentence names file and key, and shows the text in a way that cannot act itself."""
-    schema = {"type": "object", "properties": {"name": {"type": "string"}}}
     with pytest.raises(InputError) as error:
-        validate({"name": text}, schema, "config.yaml")
+        make_settings({"material": {"name": text}}, "config.yaml")
     words = str(error.value)
-    assert words.startswith("config.yaml: name: '")
+    assert words.startswith("config.yaml: material.name: '")
     assert words.isascii() and words.isprintable()
 
 

@@ -7,9 +7,9 @@ import pyvista
 from foldshell.files.errors import InputError
 from foldshell.folding.fold import fold_sheet
 from foldshell.folding.quadric import make_quadric
-from foldshell.folding.settings import FoldSettings
 from foldshell.folding.targets import make_target
 from foldshell.pattern.design import design_sheet
+from foldshell.settings.fold import Fold
 
 SHAPES = {
     "bumps.stl": lambda x, y: (
@@ -68,13 +68,13 @@ def _lay_out(path, zigzag, strip):
 
 def _assert_followed(path, zigzag, strip):
     sheet, target = _lay_out(path, zigzag, strip)
-    soft = fold_sheet(sheet, target, "paper", FoldSettings())
+    soft = fold_sheet(sheet, target, "elastic", Fold())
     assert soft.state == "ok" and soft.quality.rms_over_span <= 1e-3
     _assert_exact(sheet, target)
 
 
 def _assert_exact(sheet, target):
-    true = fold_sheet(sheet, target, "exact", FoldSettings())
+    true = fold_sheet(sheet, target, "exact", Fold())
     assert true.state == "ok", true.reason
     assert true.shape.residuals["constraint_residual"] <= 1e-9
     assert true.shape.residuals["unfold_closure_m"] <= 1e-9
@@ -86,7 +86,7 @@ def test_waves_too_short_for_a_coarse_soft_sheet(tmp_path):
     """Its folds are about as deep as the radius of 3 m: it draws in, and is not called ok."""
     write_surface(tmp_path / "a.ply", lambda x, y: 1.5 * np.sin(x / 2.2) + 0 * y)
     sheet, target = _lay_out(tmp_path / "a.ply", 15, 16)
-    soft = fold_sheet(sheet, target, "paper", FoldSettings())
+    soft = fold_sheet(sheet, target, "elastic", Fold())
     assert soft.state == "crumpled" and "plan coverage 0.65" in soft.reason
     _assert_exact(sheet, target)
     _assert_followed(tmp_path / "a.ply", 30, 16)

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from folding_cases import DENSITIES, SPAN_HEIGHTS, fold_case
-from foldshell.folding.problem import Weights
-from foldshell.folding.quadric import SURFACES
+from foldshell.settings.design import SURFACES
+from foldshell.settings.fold import FoldWeights
 
 
 def _assert_reached(surface, span, height, zigzag, strip):
@@ -53,7 +53,7 @@ def test_soft_springs_distort_the_paraboloid_and_say_so():
 
 
 def test_without_attraction_the_target_is_not_reached():
-    weights = Weights(attraction=1e-9)
+    weights = FoldWeights(attraction=1e-9)
     result = fold_case("paraboloid", 28, 10, 15, 16, weights=weights)[2]
     assert result.state in ("not_reached", "crumpled")
     assert "rms" in result.reason or "coverage" in result.reason

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from scipy.integrate import quad
 
-from foldshell.folding.quadric import SURFACES, make_quadric
+from foldshell.folding.quadric import make_quadric
+from foldshell.settings.design import SURFACES
 
 
 @pytest.mark.parametrize("surface", SURFACES)

@@ -6,8 +6,10 @@ import numpy as np
 import pytest
 
 from folding_cases import differentiate, skewed_sheet
-from foldshell.folding.problem import Weights, build_terms
-from foldshell.folding.quadric import SURFACES, make_quadric
+from foldshell.folding.problem import build_terms
+from foldshell.folding.quadric import make_quadric
+from foldshell.settings.design import SURFACES
+from foldshell.settings.fold import FoldWeights
 
 NAMES = ("stretch", "crease hinges", "neutral folds", "attraction", "plan edges")
 
@@ -18,7 +20,7 @@ def test_jacobian_is_the_slope_of_the_residual(surface, number):
     """Central differences with step 1e-6 m are exact to about 1e-9 here."""
     sheet, vertices = skewed_sheet()
     target = make_quadric(surface, 4.0, 1.5)
-    term = build_terms(sheet, target, "lowest", Weights())[number]
+    term = build_terms(sheet, target, "lowest", FoldWeights())[number]
     residual, values = term.evaluate(vertices)
     dense = np.zeros((len(residual), vertices.size))
     np.add.at(dense, (np.arange(len(residual))[:, None], term.columns), values)

@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from folding_cases import DENSITIES, fold_case
-from foldshell.folding.quadric import SURFACES
 from foldshell.folding.quality import find_convex
 from foldshell.pattern.angles import developability_residual, flat_foldability_residual
 from foldshell.pattern.unfold import find_overlap, flatten_panels
+from foldshell.settings.design import SURFACES
 
 RIGID_RMS = {
     "paraboloid": 2e-3,

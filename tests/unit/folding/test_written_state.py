@@ -8,11 +8,11 @@ from foldshell.folding.constraints import require_planar
 from foldshell.folding.exact import project_vertices
 from foldshell.folding.fold import fold_sheet, judge_shape
 from foldshell.folding.quality import Quality, measure_quality
-from foldshell.folding.settings import FoldSettings
 from foldshell.folding.shape import Shape
 from foldshell.folding.targets import make_target
 from foldshell.pattern.design import design_sheet
 from foldshell.pattern.unfold import unfold_panels
+from foldshell.settings.fold import Fold
 
 
 def write_dome(path, span=5.0, points=25, noise=0.02, seed=1, corner=(0.0, 0.0, 0.0)):
@@ -34,7 +34,7 @@ def write_dome(path, span=5.0, points=25, noise=0.02, seed=1, corner=(0.0, 0.0, 
 def fold_onto(path, mode, span=5.0, zigzag=15, strip=16):
     target = make_target(path, span, 1.0)
     sheet = design_sheet("miura", target.section_lengths(), zigzag, strip, 60.0, 0)
-    return sheet, target, fold_sheet(sheet, target, mode, FoldSettings())
+    return sheet, target, fold_sheet(sheet, target, mode, Fold())
 
 
 @pytest.mark.parametrize("seed", [1, 2])
@@ -67,12 +67,12 @@ def test_iterations_that_end_within_the_limits_are_ok():
 def test_what_is_no_number_is_not_ok():
     quality = Quality(*[0.0] * 14)
     shape = Shape(np.zeros((1, 3)), np.zeros((1, 3)), 1, True, "settled")
-    assert judge_shape(shape, quality, 2e-3, 0.8, "paper")[0] == "crumpled"  # coverage 0
+    assert judge_shape(shape, quality, 2e-3, 0.8, "elastic")[0] == "crumpled"  # coverage 0
     lost = Quality(float("nan"), *[0.0] * 13)
-    assert judge_shape(shape, lost, 2e-3, 0.0, "paper")[0] == "not_reached"
+    assert judge_shape(shape, lost, 2e-3, 0.0, "elastic")[0] == "not_reached"
 
 
-@pytest.mark.parametrize("mode", ["paper", "exact", "isometric"])
+@pytest.mark.parametrize("mode", ["elastic", "exact", "isometric"])
 @pytest.mark.parametrize("corner", [(0.0, 0.0, 0.0), (690_000.0, 5_334_000.0, 520.0)])
 def test_a_sheet_stands_where_its_surface_stands(tmp_path, corner, mode):
     """Once with its corner at the origin, once on a national grid [m]."""

@@ -4,7 +4,6 @@ import math
 
 import pytest
 
-from foldshell.folding.settings import FoldSettings
 from foldshell.folding.targets import make_target
 from foldshell.kinematics.force_ratios import try_force_ratios
 from foldshell.kinematics.mechanism import (
@@ -15,6 +14,7 @@ from foldshell.kinematics.mechanism import (
 )
 from foldshell.pattern.design import design_sheet
 from foldshell.pattern.miura import Miura, folded_vertices, rest_fold_angle
+from foldshell.settings.fold import Fold
 
 CASES = [(60, None), (60, 40), (70, 50), (50, 30)]
 
@@ -85,7 +85,7 @@ def test_triangles_keep_their_panels_and_quadrilaterals_shear(panel):
     target = make_target("paraboloid", 28, 10)
     sheet = design_sheet("miura", target.section_lengths(), 15, 16, 60.0, 0)
     quads, triangles = (
-        try_force_ratios(sheet, target, FoldSettings(), kind, 100.0, panel)
+        try_force_ratios(sheet, target, Fold(), kind, 100.0, panel)
         for kind in ("quadrilaterals", "triangles")
     )
     assert triangles.folded and triangles.shear_max < 0.1

@@ -7,8 +7,11 @@ from figure_cases import PANELS
 from foldshell.report import viewer_data
 from foldshell.report.arrays import pack_arrays, unpack_arrays
 from foldshell.report.viewer_data import make_viewer_data
-from foldshell.results.design_view import Elasticity, Limits, make_design_view
+from foldshell.results.design_view import make_design_view
 from foldshell.results.state import read_state
+from foldshell.settings.loads import Combinations
+from foldshell.settings.material import Material
+from foldshell.settings.sizing import Sizing
 from report_cases import SETTINGS, write_files
 
 
@@ -16,10 +19,10 @@ def view_of(folder, folded=True, **options):
     """Return the view of a small case, and its state."""
     paths, _ = write_files(folder, **options)
     files = [paths[name] for name in ("mesh", "folded", "arrays", "final")]
-    state = read_state("case", *files, SETTINGS["combinations"], paths["class_arrays"])
-    return make_viewer_data(
-        make_design_view(state, 5.0, Limits(), Elasticity(31e6, 0.2), folded)
-    ), state
+    state = read_state(
+        "case", *files, Combinations(**SETTINGS["combinations"]), paths["class_arrays"]
+    )
+    return make_viewer_data(make_design_view(state, 5.0, Sizing(), Material(), folded)), state
 
 
 def test_every_field_is_there(tmp_path):
@@ -83,7 +86,7 @@ def test_very_large_sheets_are_shown_by_facets(tmp_path, monkeypatch):
     monkeypatch.setattr(viewer_data, "CELLS_MAX", 10)
     cells = np.random.default_rng(5).permutation(8 * PANELS).reshape(-1, 4)
     state.final["utilization_cell"] = cells
-    coarse = make_viewer_data(make_design_view(state, 5.0, Limits(), Elasticity(31e6, 0.2)))
+    coarse = make_viewer_data(make_design_view(state, 5.0, Sizing(), Material()))
     assert np.array_equal(coarse.arrays["field_utilization"], cells.max(axis=1))
     assert len(coarse.arrays["triangles"]) == 2 * PANELS
     assert np.array_equal(coarse.arrays["nodes"], state.shell["vertices"])

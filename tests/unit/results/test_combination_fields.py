@@ -6,11 +6,12 @@ import numpy as np
 import pytest
 
 from figure_cases import make_state
-from foldshell.loads.cases import Loads
+from foldshell.loads.cases import make_load_cases
 from foldshell.results.combination_fields import basis_gradient, evaluate_combinations
-from foldshell.results.design_view import Elasticity
+from foldshell.settings.analysis import Analysis
+from foldshell.settings.loads import Loads
 from foldshell.settings.material import Material
-from foldshell.shell.analysis import AnalysisOptions, analyse_shell, build_model
+from foldshell.shell.analysis import analyse_shell, build_model
 from foldshell.shell.mesh import build_mesh
 from foldshell.shell.mesh_files import cell_triangles, result_mesh
 from foldshell.shell.reference import orthonormal_basis
@@ -32,9 +33,9 @@ def beam_state(folder, turn):
     ends = (np.abs(mesh.nodes @ [cosine, sine, 0] - place) < 1e-9 for place in (0, SPAN))
     model = build_model(mesh, np.flatnonzero(np.logical_or(*ends)), 0.0)
     thickness = np.full(len(mesh.elements), THICKNESS)
-    loads = Loads(0.0, LOAD, 0.0, 0.0)
+    loads = make_load_cases(Loads(0.0, LOAD, 0.0, 0.0), MATERIAL.unit_weight)
     done = analyse_shell(
-        model, thickness, MATERIAL, loads, {"S1": {"LL": 1.0}}, AnalysisOptions(second_order=False)
+        model, thickness, MATERIAL, loads, {"S1": {"LL": 1.0}}, Analysis(second_order=False)
     )
     cells = result_mesh(mesh, vertices, facets)
     state = replace(
@@ -52,7 +53,7 @@ def test_beam_under_uniform_load(tmp_path, turn):
     Exact for polynomials of the element's order, so only rounding is left: 1e-6 of the peak.
     """
     state, x = beam_state(tmp_path, turn)
-    found = evaluate_combinations(state, Elasticity(30e6, 0.0), MATERIAL)
+    found = evaluate_combinations(state, MATERIAL)
     along = found.axes[0, :2] @ [np.cos(turn), np.sin(turn), 0]
     mx, my, mxy = found.moment[0].T
     moment = along[0] ** 2 * mx + along[1] ** 2 * my + 2 * along[0] * along[1] * mxy

@@ -1,28 +1,55 @@
-"""Settings: one schema for validation, defaults, documentation and types."""
+"""Settings: one class a group for checks, defaults, documentation and what the library takes."""
 
 import copy
-import dataclasses
+import json
 import math
+from pathlib import Path
 
+import jsonschema
 import pytest
 import yaml
 
 from foldshell.files.errors import InputError
-from foldshell.folding.settings import FoldSettings
-from foldshell.folding.settings import read_settings as read_fold_settings
-from foldshell.settings.documentation import generate_config, generate_readme
+from foldshell.folding.fold import SOLVERS
+from foldshell.folding.quadric import make_quadric
+from foldshell.pattern.design import design_sheet
+from foldshell.settings.check import Reader, iterate_settings
+from foldshell.settings.design import FOLD_MODES, PATTERNS, SUPPORTS, SURFACES, Design
+from foldshell.settings.documentation import (
+    SCHEMAS,
+    generate_config,
+    generate_readme,
+    generate_schemas,
+)
+from foldshell.settings.field import list_groups, list_settings
 from foldshell.settings.load import load_study
-from foldshell.settings.make import config_schema, make_settings, read_settings
-from foldshell.settings.schema import CONFIG_FOLDER, iterate_leaves, validate
+from foldshell.settings.make import make_settings, read_settings
+from foldshell.settings.sizing import Sizing
+from foldshell.settings.stage import read_stage, to_plain
 from foldshell.settings.stages import STAGES, settings_hash, stage_parameters
-from foldshell.settings.units import convert_units
+from foldshell.settings.study import Settings
+from foldshell.shell.supports import SUPPORT_SETS
 from foldshell.sizing.rounding import round_thickness
+from foldshell.sizing.step import RULES
+
+CONFIG_FOLDER = Path(__file__).parents[3] / "config"
+RENEW = "run python -m foldshell.settings.documentation config"
 
 
-def test_config_file_holds_the_defaults_of_the_schema():
+def changed(place: str, value):
+    config: dict = {}
+    node = config
+    *groups, last = place.split(".")
+    for group in groups:
+        node = node.setdefault(group, {})
+    node[last] = value
+    return config
+
+
+def test_config_file_holds_the_defaults_of_the_classes():
     text = (CONFIG_FOLDER / "config.yaml").read_text(encoding="utf-8")
-    assert text == generate_config(), "run python -m foldshell.settings.documentation"
-    assert read_settings(CONFIG_FOLDER / "config.yaml") == make_settings({})
+    assert text == generate_config(), RENEW
+    assert read_settings(CONFIG_FOLDER / "config.yaml") == make_settings({}) == Settings()
 
 
 def test_plain_yaml_reads_the_config_file_alike():
@@ -31,32 +58,54 @@ def test_plain_yaml_reads_the_config_file_alike():
     assert make_settings(yaml.safe_load(text)) == make_settings({})
 
 
-def test_readme_is_in_step_with_the_schemas():
+def test_readme_and_schemas_are_in_step_with_the_classes():
     text = (CONFIG_FOLDER / "README.md").read_text(encoding="utf-8")
-    assert text == generate_readme(), "run python -m foldshell.settings.documentation"
-    for place, _ in iterate_leaves(config_schema()):
-        assert place[-1] in text
+    assert text == generate_readme(), RENEW
+    for place, _ in iterate_settings(Settings):
+        assert place.rpartition(".")[2] in text
+    for name, schema in generate_schemas().items():
+        assert (SCHEMAS / name).read_text(encoding="utf-8") == schema, RENEW
 
 
-def test_each_setting_has_a_description_and_an_allowed_default():
-    for place, part in iterate_leaves(config_schema()):
-        assert part["description"].endswith("."), place
-        validate(part["default"], part, ".".join(place))
+def test_each_setting_has_a_meaning_and_an_allowed_default():
+    for place, known in iterate_settings(Settings):
+        assert known.meaning.endswith("."), place
+        assert Reader("").read_value(known, known.default, place) is not None
 
 
-def test_classes_have_the_fields_of_the_schema():
-    settings = make_settings({})
-    for group, part in config_schema()["properties"].items():
-        if part.get("type") != "object":
-            continue
-        fields = {field.name for field in dataclasses.fields(getattr(settings, group))}
-        assert fields == set(convert_units(dict.fromkeys(part["properties"], 1.0))), group
+@pytest.mark.parametrize("place", [place for place, _ in iterate_settings(Settings)])
+def test_json_schema_allows_what_the_check_allows(place):
+    """Both are made from the same class, in two ways: they must agree on every setting."""
+    schema = json.loads(generate_schemas()["config.schema.json"])
+    tried = [None, True, "", "x", "strip", "S2", -1, 0, 0.03, 0.5, 1, 1.5, 2.0, 3, 90, 1e3, 1e9]
+    tried += [[1, 2], [1], [1, 2.5], {}, {"S2": {"SW": 1}}, {"S2": {"SW": 101}}, {"S2": {}}]
+    known = dict(iterate_settings(Settings))[place]
+    tried += [*known.choices, *known.former, known.default, "a" * 61]
+    for value in tried:
+        given = list(value) if isinstance(value, tuple) else value
+        try:
+            Reader("").read_group(Settings, changed(place, given))
+            allowed = True
+        except InputError:
+            allowed = False
+        assert allowed == jsonschema.Draft202012Validator(schema).is_valid(changed(place, given))
+
+
+def test_what_settings_name_is_what_the_library_knows():
+    """Words stand in the settings once, and what they mean in the room that does it."""
+    assert tuple(SOLVERS) == FOLD_MODES
+    assert tuple(SUPPORT_SETS) == SUPPORTS
+    assert tuple(RULES) == list_settings(Sizing)["rule"].choices
+    for pattern in PATTERNS:
+        assert len(design_sheet(pattern, (5.0, 5.0), 3, 4, 60.0, 2, 0.3).flat) == 12
+    for surface in SURFACES:
+        assert make_quadric(surface, 5.0, 2.0).name == surface
 
 
 def test_lengths_are_the_numbers_that_a_workbook_gives_back():
     """Bounds that a workbook rounds would refuse the least thickness that they allow."""
     for tenths in range(1, 2000):
-        length = convert_units({"least_thickness_mm": tenths / 10})["least_thickness"]
+        length = list_settings(Sizing)["least_thickness"].convert(tenths / 10)
         assert length == float(f"{tenths}e-4") == round_thickness(length)
 
 
@@ -81,21 +130,6 @@ def test_combinations_are_those_of_the_paper():
     assert uplift["S6"] == {"SW": 0.9, "SDL": 0.9, "WX": 1.0}
     assert uplift["S7"] == {"SW": 0.9, "SDL": 0.9, "WY": 1.0}
     assert list(uplift)[:5] == list(combinations.strength)
-
-
-def test_folding_stage_has_the_same_defaults():
-    """The folding library knows no config file; its own defaults must not drift from it."""
-    assert read_fold_settings(stage_parameters(make_settings({}), "fold")["fold"]) == FoldSettings()
-
-
-def changed(place: str, value):
-    config: dict = {}
-    node = config
-    *groups, last = place.split(".")
-    for group in groups:
-        node = node.setdefault(group, {})
-    node[last] = value
-    return config
 
 
 @pytest.mark.parametrize(
@@ -148,6 +182,18 @@ def changed(place: str, value):
         ("crosscheck.subdivisions", [4, 4], "two rising numbers"),
         ("crosscheck.subdivisions", [2, "4"], r"crosscheck.subdivisions\[1\]: '4'"),
         ("crosscheck.tolerance.work", 5, "at most 1"),
+        ("fold.wieghts", {}, "fold.wieghts: unknown key, the nearest is fold.weights"),
+        ("fold.weights.stretsh", 1, "the nearest is fold.weights.stretch"),
+        ("fold.weights.stretch", "10", r"fold.weights.stretch: '10': .*write 1.0e\+01"),
+        ("fold.weights.stretch", -1, "at least 0"),
+        ("fold.weights", 3, "fold.weights: 3: a group"),
+        ("fold.attract", "middle", "one of lowest, highest"),
+        ("fold.max_iterations", True, "a whole number in iterations"),
+        ("combinations.strength", {"s2": {"SW": 1}, "S2": {"SW": 1}}, "S2: differs from .*s2 in"),
+        ("combinations.strength", {"S2": {"SW": 1}, "d2": {"SW": 1}}, "D2: differs from .*d2 in"),
+        ("combinations.strength", {"S2": {"SW": 0.0}}, "combination S2 loads nothing"),
+        ("combinations.strength", {"S2": {"sw": 1.0}}, "nearest is combinations.strength.S2.SW"),
+        ("combinations.strength", {"S2": 3}, "S2: 3: a group of keys"),
         ("designs", 3, "designs: 3: text"),
         ("limits.panels_max", 10**6, "at most 9000"),
     ],
@@ -164,6 +210,77 @@ def test_uplift_refuses_a_name_that_is_taken():
     config["loads"] = {"uplift": True}
     with pytest.raises(InputError, match="S6"):
         make_settings(config)
+
+
+@pytest.mark.parametrize(
+    ("loads", "factors", "why"),
+    [
+        ({"live_kn_m2": 0}, {"LL": 1.6}, "loads.live_kn_m2 is 0"),
+        ({"superimposed_dead_kn_m2": 0}, {"SDL": 1}, "loads.superimposed_dead_kn_m2 is 0"),
+        ({"wind_kn_m2": 0}, {"WX": 1, "WY": 1}, "loads.wind_kn_m2 x wind_fraction is 0"),
+        ({"wind_fraction": 0}, {"WX": 1}, "loads.wind_kn_m2 x wind_fraction is 0"),
+        ({"live_kn_m2": 0}, {"LL": 1, "SW": 0}, "loads.live_kn_m2 is 0"),
+    ],
+)
+def test_a_combination_that_loads_nothing_is_refused(loads, factors, why):
+    config = {"loads": loads, "combinations": {"strength": {"S2": factors}}}
+    with pytest.raises(InputError, match=f"strength.S2: combination S2 loads nothing, {why}"):
+        make_settings(config)
+    make_settings(config | {"loads": {}, "combinations": {"strength": {"S2": {"SW": -1}}}})
+
+
+@pytest.mark.parametrize("name", ["S6", "s7"])
+def test_uplift_refuses_a_name_in_any_case(name):
+    given = {"S2": {"SW": 1.0}, name: {"SW": 1.0}}
+    with pytest.raises(InputError, match=f"but {name} stands"):
+        make_settings({"loads": {"uplift": True}, "combinations": {"strength": given}})
+
+
+def test_old_words_are_read_as_the_new_ones_and_said_once(tmp_path):
+    table = tmp_path / "designs.tsv"
+    table.write_text("design\tfold_mode\na\tpaper\nb\tpaper\nc\texact\n", encoding="utf-8")
+    config = tmp_path / "config.yaml"
+    text = "sizing: {rule: literal}\nloads: {area_basis: plan}\ndefaults: {fold_mode: paper}\n"
+    config.write_text(text, encoding="utf-8")
+    merged = yaml.safe_load(text) | {"designs": str(table)}
+    said = []
+    settings, designs = load_study(merged, [config], said.append)
+    assert settings.sizing.rule == "fully_stressed" and settings.loads.area_basis == "plan_abs"
+    assert settings.defaults.fold_mode == "elastic"
+    assert [design.fold_mode for design in designs] == ["elastic", "elastic", "exact"]
+    assert said == [
+        f"{config}: defaults.fold_mode: 'paper' is now called 'elastic'",
+        f"{config}: loads.area_basis: 'plan' is now called 'plan_abs'",
+        f"{config}: sizing.rule: 'literal' is now called 'fully_stressed'",
+        f"{table}: fold_mode: 'paper' is now called 'elastic'",
+    ]
+    assert make_settings({"loads": {"area_basis": "mesh"}}) == make_settings({})
+
+
+def test_text_of_the_command_line_is_read_by_the_setting_it_belongs_to(tmp_path):
+    """`--config` knows text alone below the first level, and a number for a name."""
+    table = tmp_path / "designs.tsv"
+    table.write_text("design\na\n", encoding="utf-8")
+    merged = {
+        "designs": str(table),
+        "study": 7,
+        "sizing": {"step": "0.2", "iterations_max": "12", "volume_change_max_m3": "1e-3"},
+        "analysis": {"second_order": "false", "solver": "superlu"},
+        "crosscheck": {"subdivisions": ["2", "3"]},
+        "combinations": {"strength": {"S2": {"SW": "1.35"}}},
+    }
+    settings, _ = load_study(merged)
+    assert settings.study == "7" and settings.sizing.step == 0.2
+    assert settings.sizing.iterations_max == 12 and settings.sizing.volume_change_max == 1e-3
+    assert settings.analysis.second_order is False and settings.crosscheck.subdivisions == (2, 3)
+    assert settings.combinations.strength == {"S2": {"SW": 1.35}}
+    with pytest.raises(InputError, match=r"sizing\.step: 'x'"):
+        load_study(merged | {"sizing": {"step": "x"}})
+
+
+def test_one_rule_for_whole_numbers():
+    for value in (15, 15.0):
+        assert make_settings({"defaults": {"zigzag": value}}).defaults.zigzag == 15
 
 
 def test_config_is_not_changed_in_place():
@@ -185,11 +302,13 @@ def test_hash_follows_values_that_matter_and_no_others():
 @pytest.mark.parametrize(
     ("place", "value", "stages"),
     [
-        ("pattern.sector_angle_deg", 55, {"pattern", "fold", "study"}),
+        ("pattern.sector_angle_deg", 55, {"pattern", "study"}),
         ("fold.weights.hinge", 0.02, {"fold", "study"}),
         ("analysis.subdivisions", 2, {"mesh", "study"}),
         ("sizing.step", 0.05, {"resize", "size", "study"}),
-        ("sizing.start_thickness_mm", 100, {"start", "resize", "size", "study"}),
+        ("sizing.start_thickness_mm", 100, {"start", "size", "study"}),
+        ("sizing.iterations_max", 20, {"analyse", "size", "study"}),
+        ("sizing.classes", 5, {"size", "study"}),
         ("loads.live_kn_m2", 2, {"analyse", "size", "crosscheck", "study"}),
         ("crosscheck.tolerance.work", 0.1, {"crosscheck", "study"}),
         ("figures.width_px", 800, {"figures"}),
@@ -208,10 +327,38 @@ def test_a_setting_changes_the_parameters_of_its_stages_only(place, value, stage
 
 def test_each_setting_reaches_a_stage():
     """A setting that no stage gets would have no effect, silently."""
-    reached = {name.partition(".")[0] for names in STAGES.values() for name in names}
-    groups = {name for name, part in config_schema()["properties"].items() if "properties" in part}
-    # The first two go into the table of designs, `jobs` changes no result.
-    assert groups - reached == {"defaults", "limits", "jobs"}
+    for group, kind in list_groups(Settings).items():
+        if group in ("defaults", "limits", "jobs"):
+            continue  # the first two go into the table of designs, `jobs` changes no result
+        named = [stage for stage, kinds in STAGES.items() if kind in kinds]
+        for name, known in list_settings(kind).items():
+            # Those three change other settings: combinations, Young's modulus, subdivisions.
+            if name not in ("uplift", "creep_coefficient", "subdivisions_demo"):
+                assert set(named) & set(known.stages or named) - {"study"}, (group, name)
+
+
+def test_a_stage_gets_typed_settings_back_and_no_others():
+    plain = json.loads(json.dumps(stage_parameters(make_settings({}), "resize")))
+    found = read_stage(plain, *STAGES["resize"])
+    assert found.sizing.step == 0.1 and found.to_plain() == plain
+    with pytest.raises(AttributeError, match=r"Sizing\.iterations_max was not given to this stage"):
+        _ = found.sizing.iterations_max
+    with pytest.raises(AttributeError, match="not given the settings material"):
+        _ = found.material
+    assert found.changed(found.sizing.changed(step=0.2)).sizing.step == 0.2
+    for stage, kinds in STAGES.items():
+        values = json.loads(json.dumps(stage_parameters(make_settings({}), stage)))
+        for kind, (name, group) in zip(
+            kinds, vars(read_stage(values, *kinds)).items(), strict=True
+        ):
+            assert isinstance(group, kind) and to_plain(group) == values[name]
+    with pytest.raises(LookupError):
+        read_stage(plain, *STAGES["start"], *STAGES["fold"])
+
+
+def test_a_design_goes_to_a_row_and_back():
+    design = Design(name="a", tags=("x", "y"), surface="arch", edge_beam_depth=0.5)
+    assert Design.from_row(json.loads(json.dumps(design.to_row()))) == design
 
 
 def test_load_study_reads_files_strictly_and_takes_overrides(tmp_path):

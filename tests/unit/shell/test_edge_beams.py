@@ -4,9 +4,11 @@ import numpy as np
 import pytest
 
 from foldshell.folding.intersections import find_piercing
-from foldshell.loads.cases import Loads
+from foldshell.loads.cases import make_load_cases
+from foldshell.settings.analysis import Analysis
+from foldshell.settings.loads import Loads
 from foldshell.settings.material import Material
-from foldshell.shell.analysis import AnalysisOptions, analyse_shell, build_model
+from foldshell.shell.analysis import analyse_shell, build_model
 from foldshell.shell.edge_beams import (
     EdgeBeam,
     facet_edges,
@@ -175,8 +177,15 @@ def test_edge_beam_panels_carry_their_own_weight_only_and_reactions_balance():
         model = build_model(mesh, arrays["supported_nodes"], 0.2, fixed_thickness=fixed)
         assert model.sized_panels == PANELS
         thickness = model.to_elements(np.full(PANELS, 0.08))
-        first = AnalysisOptions(second_order=False)
-        result = analyse_shell(model, thickness, MATERIAL, Loads(), combinations, first)
+        first = Analysis(second_order=False)
+        result = analyse_shell(
+            model,
+            thickness,
+            MATERIAL,
+            make_load_cases(Loads(), MATERIAL.unit_weight),
+            combinations,
+            first,
+        )
         load = translations(model, result.loads).sum(axis=0)
         reaction = support_reactions(model, result, thickness, MATERIAL).sum(axis=0)
         assert reaction == pytest.approx(-load, abs=1e-6 * np.abs(load).max())
@@ -231,8 +240,9 @@ def test_channel_cantilever_bends_like_a_beam(seed):
     model = build_model(mesh, clamped, 0.0, fixed_thickness=np.full(20, beam.thickness))
     material = Material("", modulus, 0.0, gamma, 1.0, 1.0)
     result = analyse_shell(
-        model, model.to_elements(np.full(10, t)), material, Loads(), {"SW": {"SW": 1.0}},
-        AnalysisOptions(second_order=False),
+        model, model.to_elements(np.full(10, t)), material,
+        make_load_cases(Loads(), material.unit_weight), {"SW": {"SW": 1.0}},
+        Analysis(second_order=False),
     )  # fmt: skip
     flange, webs = width * t, 2 * beam.depth * beam.thickness
     centre = -webs * beam.depth / 2 / (flange + webs)

@@ -13,9 +13,11 @@ from foldshell.checks.strength import (
     utilization_von_mises,
 )
 from foldshell.checks.utilization import area_percentile, compute_utilization, panel_utilization
-from foldshell.loads.cases import LOAD_CASES, Loads, combination_matrix, surface_loads
+from foldshell.loads.cases import LOAD_CASES, combination_matrix, make_load_cases, surface_loads
+from foldshell.settings.analysis import Analysis
+from foldshell.settings.loads import Loads
 from foldshell.settings.material import Material, age_material
-from foldshell.shell.analysis import AnalysisOptions, analyse_shell, build_model
+from foldshell.shell.analysis import analyse_shell, build_model
 from foldshell.shell.mesh import build_mesh
 from foldshell.shell.nodal_loads import nodal_forces
 from foldshell.shell.results import reaction_imbalance, support_reactions
@@ -36,12 +38,13 @@ CONCRETE = Material("C25/30", 31e6, 0.2, 25.0, 16_700.0, 1_670.0)
 def test_surface_loads_are_those_of_table_2():
     """Tsiamis et al. 2018, Table 2; SDL acts against the normal, half of the wind on all."""
     normal = np.array([[0, 0, 1.0], [0.6, 0, 0.8]])
-    found = surface_loads(normal, np.array([0.1, 0.2]), 25.0, Loads())
+    found = surface_loads(normal, np.array([0.1, 0.2]), make_load_cases(Loads(), 25.0))
     assert found[:, :, 0].tolist() == [[0, 0, -2.5], [0, 0, -5.0]]
     assert found[1, :, 1] == pytest.approx([-0.3, 0, -0.4])
     assert found[:, 2, 2].tolist() == [-1.0, -1.0]
     assert found[:, 0, 3].tolist() == found[:, 1, 4].tolist() == [0.85, 0.85]
-    plan = surface_loads(normal, np.array([0.1, 0.2]), 25.0, Loads(area_basis="plan"))
+    basis = Loads(area_basis="plan_abs")
+    plan = surface_loads(normal, np.array([0.1, 0.2]), make_load_cases(basis, 25.0))
     assert plan[:, 2, 2] == pytest.approx([-1.0, -0.8])
     assert plan[:, 0, 3] == pytest.approx([0.85, 0.68])
     assert plan[:, :, :2].tolist() == found[:, :, :2].tolist()
@@ -177,8 +180,15 @@ def test_reactions_balance_the_loads(second_order):
     model = square_model()
     thickness = np.full(4, 0.1)
     combinations = {"S2": {"SW": 1.2, "SDL": 1.2, "LL": 1.6, "WX": 0.5}}
-    options = AnalysisOptions(second_order=second_order)
-    result = analyse_shell(model, thickness, CONCRETE, Loads(), combinations, options)
+    options = Analysis(second_order=second_order)
+    result = analyse_shell(
+        model,
+        thickness,
+        CONCRETE,
+        make_load_cases(Loads(), CONCRETE.unit_weight),
+        combinations,
+        options,
+    )
     reactions = support_reactions(model, result, thickness, CONCRETE)
     expected = 2.0 * np.array([-0.5 * 0.85, 0, 1.2 * 25 * 0.1 + 1.2 * 0.5 + 1.6])
     assert reactions.sum(axis=0)[:, 0] == pytest.approx(expected, rel=1e-9, abs=1e-9)
@@ -190,7 +200,12 @@ def test_utilization_takes_the_governing_combination():
     thickness = np.full(4, 0.1)
     combinations = {"S1": {"SW": 1.4}, "S2": {"SW": 2.8}}
     result = analyse_shell(
-        model, thickness, CONCRETE, Loads(), combinations, AnalysisOptions(second_order=False)
+        model,
+        thickness,
+        CONCRETE,
+        make_load_cases(Loads(), CONCRETE.unit_weight),
+        combinations,
+        Analysis(second_order=False),
     )
     used = compute_utilization(model, result.displacement, thickness, CONCRETE)
     assert used.combination[1] == pytest.approx(2 * used.combination[0])

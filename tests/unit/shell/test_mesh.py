@@ -6,7 +6,7 @@ import pytest
 from foldshell.shell.mesh import build_mesh, edge_polyline_nodes, split_subdivisions
 from foldshell.shell.mesh_files import cell_triangles, interpolate_to_cells, result_mesh
 from foldshell.shell.stress import cell_points
-from foldshell.shell.supports import supported_pairs
+from foldshell.shell.supports import find_support, supported_pairs
 from shell_cases import folded_strip, random_rotation, skewed_patch
 
 SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]])
@@ -72,14 +72,14 @@ def test_supports_are_the_border_polylines():
     zigzag, strip = np.divmod(np.arange(12), 4)
     pairs = np.array([[0, 1], [4, 5], [8, 9], [0, 4], [3, 7], [1, 5]])
     found = {
-        name: [pair for pair in supported_pairs(pairs, zigzag, strip, name).tolist()]
+        name: [pair for pair in supported_pairs(pairs, zigzag, strip, find_support(name)).tolist()]
         for name in ("zigzag", "strip", "all")
     }
     assert found["zigzag"] == [[0, 1], [8, 9]]
     assert found["strip"] == [[0, 4], [3, 7]]
     assert found["all"] == [[0, 1], [8, 9], [0, 4], [3, 7]]
     with pytest.raises(ValueError, match="support 'edges'"):
-        supported_pairs(pairs, zigzag, strip, "edges")
+        find_support("edges")
 
 
 @pytest.mark.parametrize("subdivisions", [2, 4, 8])

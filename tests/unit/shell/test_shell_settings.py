@@ -3,8 +3,8 @@
 import pytest
 
 from foldshell.settings.make import make_settings
-from foldshell.settings.stages import stage_parameters
-from foldshell.shell.analysis import AnalysisOptions
+from foldshell.settings.stage import read_stage
+from foldshell.settings.stages import STAGES, stage_parameters
 
 
 def test_creep_divides_the_modulus_of_every_stage():
@@ -16,7 +16,7 @@ def test_creep_divides_the_modulus_of_every_stage():
 
 def test_imperfection_reaches_the_analysis_in_metres_and_is_none_by_default():
     asked = make_settings({"analysis": {"imperfection_mm": 20}})
-    options = AnalysisOptions(**stage_parameters(asked, "analyse")["analysis"])
+    plain = stage_parameters(asked, "analyse")
+    options = read_stage(plain, *STAGES["analyse"]).analysis
     assert options.imperfection == pytest.approx(0.02)
-    default = AnalysisOptions(**stage_parameters(make_settings({}), "analyse")["analysis"])
-    assert default == AnalysisOptions()
+    assert make_settings({}).analysis.imperfection == 0.0

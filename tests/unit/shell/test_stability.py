@@ -6,9 +6,11 @@ import numpy as np
 import pytest
 
 from foldshell.folding import normal_equations
-from foldshell.loads.cases import Loads
+from foldshell.loads.cases import make_load_cases
+from foldshell.settings.analysis import Analysis
+from foldshell.settings.loads import Loads
 from foldshell.settings.material import Material
-from foldshell.shell.analysis import AnalysisOptions, analyse_shell, build_model
+from foldshell.shell.analysis import analyse_shell, build_model
 from foldshell.shell.assembly import assemble_stiffness, find_pattern, translation_dofs
 from foldshell.shell.buckling import find_buckling_factors
 from foldshell.shell.cholmod_library import open_library
@@ -91,7 +93,12 @@ def dense_buckling(model, thickness, combination):
     from scipy.linalg import eigh
 
     result = analyse_shell(
-        model, thickness, CONCRETE, Loads(), combination, AnalysisOptions(second_order=False)
+        model,
+        thickness,
+        CONCRETE,
+        make_load_cases(Loads(), CONCRETE.unit_weight),
+        combination,
+        Analysis(second_order=False),
     )
     values = assemble_stiffness(model.operators, model.pattern, thickness, 31e6)
     size = model.pattern.size
@@ -110,7 +117,9 @@ def test_buckling_factors_agree_with_dense_eigenvalues():
     """Independent path: LAPACK on full matrices. Tolerance 1e-4: the square of the mode change."""
     model = arch_model()
     thickness = np.random.default_rng(3).uniform(0.03, 0.06, 64)[np.arange(64)]
-    result = analyse_shell(model, thickness, CONCRETE, Loads(), COMBINATIONS)
+    result = analyse_shell(
+        model, thickness, CONCRETE, make_load_cases(Loads(), CONCRETE.unit_weight), COMBINATIONS
+    )
     for column, (name, factors) in enumerate(COMBINATIONS.items()):
         exact = dense_buckling(model, thickness, {name: factors})
         assert result.buckling.factors[column] == pytest.approx(exact, rel=1e-4)
@@ -119,10 +128,19 @@ def test_buckling_factors_agree_with_dense_eigenvalues():
 def test_warm_start_gives_the_same_factors_with_fewer_solves():
     model = arch_model()
     thick, thin = np.full(64, 0.05), np.full(64, 0.048)
-    first = analyse_shell(model, thick, CONCRETE, Loads(), COMBINATIONS)
-    cold = analyse_shell(model, thin, CONCRETE, Loads(), COMBINATIONS)
+    first = analyse_shell(
+        model, thick, CONCRETE, make_load_cases(Loads(), CONCRETE.unit_weight), COMBINATIONS
+    )
+    cold = analyse_shell(
+        model, thin, CONCRETE, make_load_cases(Loads(), CONCRETE.unit_weight), COMBINATIONS
+    )
     warm = analyse_shell(
-        model, thin, CONCRETE, Loads(), COMBINATIONS, start_modes=first.buckling.modes
+        model,
+        thin,
+        CONCRETE,
+        make_load_cases(Loads(), CONCRETE.unit_weight),
+        COMBINATIONS,
+        start_modes=first.buckling.modes,
     )
     assert warm.buckling.factors == pytest.approx(cold.buckling.factors, rel=1e-4)
     assert warm.buckling.solves < cold.buckling.solves
@@ -150,7 +168,11 @@ def test_multiples_of_a_combination_share_its_mode():
     model = arch_model()
     twice = {name: 2 * factor for name, factor in COMBINATIONS["S2"].items()}
     result = analyse_shell(
-        model, np.full(64, 0.05), CONCRETE, Loads(), COMBINATIONS | {"S9": twice, "none": {}}
+        model,
+        np.full(64, 0.05),
+        CONCRETE,
+        make_load_cases(Loads(), CONCRETE.unit_weight),
+        COMBINATIONS | {"S9": twice, "none": {}},
     )
     factors = dict(zip(result.names, result.buckling.factors, strict=True))
     assert factors["S9"] == pytest.approx(factors["S2"] / 2, rel=1e-14)
@@ -171,7 +193,9 @@ def test_second_order_solves_its_equation():
     """(K + K_g(N(u))) u = F is checked with matrices that the solver never formed."""
     model = arch_model()
     thickness = np.full(64, 0.04)
-    result = analyse_shell(model, thickness, CONCRETE, Loads(), COMBINATIONS)
+    result = analyse_shell(
+        model, thickness, CONCRETE, make_load_cases(Loads(), CONCRETE.unit_weight), COMBINATIONS
+    )
     assert result.state == "ok"
     values = assemble_stiffness(model.operators, model.pattern, thickness, 31e6)
     column = np.repeat(np.arange(model.pattern.size), np.diff(model.pattern.indptr))
@@ -210,7 +234,13 @@ def test_second_order_says_when_it_does_not_converge():
 
 def test_a_shell_that_has_buckled_is_unstable_and_says_which_combination():
     model = arch_model()
-    result = analyse_shell(model, np.full(64, 0.002), CONCRETE, Loads(), COMBINATIONS)
+    result = analyse_shell(
+        model,
+        np.full(64, 0.002),
+        CONCRETE,
+        make_load_cases(Loads(), CONCRETE.unit_weight),
+        COMBINATIONS,
+    )
     assert result.state == "unstable"
     assert "buckling factor" in result.reason
     assert result.second_order is None
@@ -265,7 +295,12 @@ def test_superlu_alone_gives_the_same_analysis():
     thickness = np.full(64, 0.04)
     one, two = (
         analyse_shell(
-            model, thickness, CONCRETE, Loads(), COMBINATIONS, AnalysisOptions(solver=solver)
+            model,
+            thickness,
+            CONCRETE,
+            make_load_cases(Loads(), CONCRETE.unit_weight),
+            COMBINATIONS,
+            Analysis(solver=solver),
         )
         for solver in ("cholmod", "superlu")
     )
@@ -277,7 +312,12 @@ def test_superlu_alone_gives_the_same_analysis():
 def test_an_analysis_repeats_to_the_last_bit():
     model = arch_model()
     thickness = np.full(64, 0.04)
-    one, two = (analyse_shell(model, thickness, CONCRETE, Loads(), COMBINATIONS) for _ in range(2))
+    one, two = (
+        analyse_shell(
+            model, thickness, CONCRETE, make_load_cases(Loads(), CONCRETE.unit_weight), COMBINATIONS
+        )
+        for _ in range(2)
+    )
     assert (one.displacement == two.displacement).all()
     assert (one.buckling.factors == two.buckling.factors).all()
     assert (one.buckling.modes == two.buckling.modes).all()
@@ -324,7 +364,13 @@ def test_a_mechanism_is_reported_with_its_place_and_without_numbers():
     hinged = replace(mesh, element_edges=elements, edge_count=mesh.edge_count + 1)
     assert edge in mesh.element_edges[0]
     model = build_model(hinged, held, 0.2)
-    result = analyse_shell(model, np.full(3, 0.1), CONCRETE, Loads(), COMBINATIONS)
+    result = analyse_shell(
+        model,
+        np.full(3, 0.1),
+        CONCRETE,
+        make_load_cases(Loads(), CONCRETE.unit_weight),
+        COMBINATIONS,
+    )
     assert result.state == "mechanism"
     assert result.mechanism_node == 4
     assert "(3.000, 0.500, 0.000)" in result.reason
@@ -339,9 +385,18 @@ def test_initial_shape_grows_as_its_factor_says():
     model = arch_model()
     thickness = np.full(64, 0.05)
     combination = {"S2": COMBINATIONS["S2"]}
-    perfect = analyse_shell(model, thickness, CONCRETE, Loads(), combination)
-    options = AnalysisOptions(imperfection=1e-3)
-    found = analyse_shell(model, thickness, CONCRETE, Loads(), combination, options)
+    perfect = analyse_shell(
+        model, thickness, CONCRETE, make_load_cases(Loads(), CONCRETE.unit_weight), combination
+    )
+    options = Analysis(imperfection=1e-3)
+    found = analyse_shell(
+        model,
+        thickness,
+        CONCRETE,
+        make_load_cases(Loads(), CONCRETE.unit_weight),
+        combination,
+        options,
+    )
     shape = found.imperfection[: 3 * len(model.mesh.nodes)].reshape(-1, 3)
     assert np.linalg.norm(shape, axis=1).max() == pytest.approx(1e-3)
     assert found.imperfection @ found.loads[:, 0] >= 0

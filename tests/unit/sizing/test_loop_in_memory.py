@@ -11,7 +11,7 @@ import start
 from foldshell.files.whole import read_arrays
 from foldshell.sizing.case import open_case
 from foldshell.sizing.loop import run_loop
-from sizing_case import SPAN, STRIP, ZIGZAG, stage, write_small_mesh
+from sizing_case import SPAN, STRIP, ZIGZAG, given, stage, write_small_mesh
 
 FILES_ONLY = {"seconds", "edited", "workbook_sha256"}
 
@@ -19,10 +19,8 @@ FILES_ONLY = {"seconds", "edited", "workbook_sha256"}
 def _run_files(folder, mesh, **sizing):
     """Run start, analyse and resize as the rules do; return reports and the last arrays."""
     grid = {"zigzag": ZIGZAG, "strip": STRIP}
-    bounds = {name: stage("size", **sizing)["sizing"][name]
-              for name in ("start_thickness", "least_thickness", "largest_thickness")}  # fmt: skip
     start.main(folder / "00/thickness.xlsx", folder / "00/written.json", design="small",
-               settings_hash="0" * 12, **grid, **bounds)  # fmt: skip
+               settings_hash="0" * 12, **grid, settings=stage("start", **sizing))  # fmt: skip
     reports, previous = [], None
     while not reports or reports[-1]["verdict"] == "continue":
         number = len(reports)
@@ -49,8 +47,8 @@ def _run_files(folder, mesh, **sizing):
 def test_same_numbers_as_in_files(tmp_path, sizing):
     mesh = write_small_mesh(tmp_path / "mesh.npz")
     reports, arrays = _run_files(tmp_path, mesh, **sizing)
-    result = run_loop(open_case(mesh, stage("analyse", **sizing)), SPAN,
-                      stage("size", **sizing)["sizing"])  # fmt: skip
+    result = run_loop(open_case(mesh, given("analyse", **sizing)), SPAN,
+                      given("size", **sizing).sizing)  # fmt: skip
     assert len(result.reports) == len(reports) > 2
     for own, other in zip(result.reports, reports, strict=True):
         plain = json.loads(json.dumps(own))

@@ -6,19 +6,22 @@ import numpy as np
 import pytest
 
 from foldshell.checks.utilization import compute_utilization, panel_utilization
-from foldshell.loads.cases import combination_matrix
-from foldshell.shell.analysis import AnalysisOptions, analyse_shell, build_model
+from foldshell.loads.cases import combination_matrix, make_load_cases
+from foldshell.settings.analysis import Analysis
+from foldshell.settings.loads import Combinations, Loads
+from foldshell.settings.material import Material
+from foldshell.settings.sizing import Sizing
+from foldshell.shell.analysis import analyse_shell, build_model
 from foldshell.shell.mesh_files import mesh_folded_sheet, mesh_from_arrays
 from foldshell.sizing import linearise
 from foldshell.sizing.adjoint import open_adjoint
 from foldshell.sizing.constraints import Constraints
-from foldshell.sizing.criteria import StopRule
 from foldshell.sizing.optimality import MARGIN, minimise_volume, optimality
-from foldshell.sizing.rules import SizingLimits, start_state
-from foldshell.sizing.step import StepRule, propose_thickness
-from sizing_case import PANELS, corrugated_sheet, stage_objects
+from foldshell.sizing.rules import start_state
+from foldshell.sizing.step import propose_thickness
+from sizing_case import PANELS, corrugated_sheet
 
-LIMITS = SizingLimits(0.04, 1.0, 0.6, 1.0)
+LIMITS = Sizing()
 
 
 def test_one_constraint_gives_the_optimality_criterion():
@@ -68,7 +71,7 @@ def test_analysis_without_constraints_is_refused():
 
 def test_displacement_is_left_to_the_constraints():
     """Where only the displacement is open dead_band grows all panels; this rule may thin some."""
-    step = StepRule("optimality", 0.1, 1.5, LIMITS)
+    step = Sizing(rule="optimality")
     analysis = {
         "state": "ok", "buckling_factor": {"S1": 9.0},
         "criteria": {"displacement_vertical_m": {"met": False}},
@@ -86,17 +89,16 @@ def test_displacement_is_left_to_the_constraints():
 
 def build_case(second_order):
     """Return the corrugated sheet with an uneven thickness, and its analysis as a function."""
-    material, plan = stage_objects()
+    material, plan = Material(), Combinations()
+    cases = make_load_cases(Loads(), material.unit_weight)
     arrays = mesh_folded_sheet(corrugated_sheet(), "zigzag", 2)
     model = build_model(
         mesh_from_arrays(arrays), arrays["supported_nodes"], material.poissons_ratio
     )
-    options = AnalysisOptions(second_order=second_order)
+    options = Analysis(second_order=second_order)
 
     def analyse(thickness):
-        return analyse_shell(
-            model, thickness[model.mesh.panel], material, plan.loads, plan.combinations, options
-        )
+        return analyse_shell(model, thickness[model.mesh.panel], material, cases, plan.all, options)
 
     thickness = 0.04 * (1 + 0.5 * np.random.default_rng(7).random(PANELS))
     return model, material, plan, thickness, analyse
@@ -105,7 +107,7 @@ def build_case(second_order):
 def compare_slopes(case, measure, size=1e-4):
     """Return values, change along a random direction, and central differences of all three."""
     model, material, plan, thickness, analyse = case
-    rule = StopRule(0.04, 1.0, 0.6, 1.0, 240, 10.0, 0.01, 30, "table3", measure)
+    rule = Sizing(measure=measure)
     strength = len(plan.strength)
 
     def respond(t):
@@ -121,7 +123,7 @@ def compare_slopes(case, measure, size=1e-4):
     result, used, *_ = respond(thickness)
     found = linearise.linearise_constraints(
         model, result, thickness[model.mesh.panel], material,
-        combination_matrix(plan.combinations), used, rule, 6.0, 1.0,
+        combination_matrix(plan.all), used, rule, 6.0, 1.0,
     )  # fmt: skip
     way = size * thickness * np.random.default_rng(3).standard_normal(PANELS)
     one, two = respond(thickness + way)[2:], respond(thickness - way)[2:]
@@ -159,6 +161,6 @@ def test_adjoint_solves_the_same_system():
     """K^-1 of the loads is the first-order displacement."""
     model, material, plan, thickness, analyse = build_case(False)
     result = analyse(thickness)
-    factors = combination_matrix(plan.combinations)
+    factors = combination_matrix(plan.all)
     adjoint = open_adjoint(model, result, thickness[model.mesh.panel], material, factors)
     assert adjoint.solve(result.loads) == pytest.approx(result.first_order, rel=1e-9, abs=1e-12)

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 
 from foldshell.results.gather import remove_superseded
-from foldshell.sizing.criteria import IterationState, StopRule, judge_iteration
+from foldshell.settings.sizing import Sizing
+from foldshell.sizing.criteria import IterationState, judge_iteration
 from foldshell.sizing.rules import (
-    SizingLimits,
     SizingState,
     dead_band,
     fully_stressed,
@@ -17,16 +17,13 @@ from foldshell.sizing.rules import (
 )
 from foldshell.sizing.step import (
     EDGE_BEAM_NOTE,
-    StepRule,
     choose_utilization,
     propose_thickness,
     take_step,
 )
-from sizing_case import stage
+from sizing_case import given
 
-LIMITS = SizingLimits(0.04, 1.0, 0.6, 1.0)
-STEP = StepRule("dead_band", 0.1, 1.5, LIMITS)
-STOP = StopRule(0.04, 1.0, 0.6, 1.0, 240, 10.0, 0.01, 30, "table3", "panel_mean")
+LIMITS = STEP = STOP = Sizing()
 
 
 def state(utilization, thickness=0.1, **changes) -> SizingState:
@@ -219,7 +216,7 @@ def test_a_panel_is_sized_by_the_edge_beam_that_hangs_from_it_if_that_is_used_mo
     }
     assert choose_utilization(arrays, "panel_mean").tolist() == [1.3, 0.7, 0.9, 0.4]
     assert arrays["utilization_panel_mean"][0] == 0.5
-    sizing = stage("resize")["sizing"]
+    sizing = given("resize").sizing
     step = take_step(analysis(), arrays | {"thickness": np.full(4, 0.1)}, {}, sizing)
     assert step.thickness == pytest.approx([0.11, 0.1, 0.1, 0.09])
     assert step.note == (EDGE_BEAM_NOTE, "", "", "")

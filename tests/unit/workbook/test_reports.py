@@ -123,7 +123,7 @@ def make_report(rows):
         thickness_class=np.arange(12) % 3 + 1,
         history=rows,
         loads={"live_kn_m2": 1.0},
-        combinations={"strength": settings.combinations.strength},
+        combinations=settings.combinations,
         settings=stage_parameters(settings, "study"),
         versions={"foldshell": "0.1.0"},
         sources=("=HYPERLINK()",),

@@ -1,0 +1,93 @@
+"""One design of the study: the columns of the table of designs; lengths in m."""
+
+import dataclasses
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from foldshell.settings.field import Group, list_settings, setting, settings_group
+
+SURFACES = ("paraboloid", "hypar", "hypar_twist", "arch", "arch_strip")
+"""Target surfaces that are known by name; others are mesh files."""
+
+PATTERNS = ("miura", "arc_miura", "smooth", "flat")
+SUPPORTS = ("all", "zigzag", "strip")
+FOLD_MODES = ("elastic", "isometric", "exact", "rigid")
+
+
+@settings_group
+class DesignColumns(Group):
+    """Values of the columns that the table of designs leaves out."""
+
+    pattern: str = setting(
+        "miura", choices=PATTERNS,
+        meaning="Folded Miura sheet, its derivative with arcs for zig-zags, smooth target surface, "
+        "or the unfolded flat sheet.",
+    )  # fmt: skip
+    surface: str = setting(
+        "paraboloid",
+        meaning=f"Target surface by name ({', '.join(SURFACES)}) or a mesh file in metres.",
+    )
+    span: float = setting(28, unit="m", above=0, maximum=500, meaning="Side of the square plan.")
+    height: float = setting(
+        10, unit="m", above=0, maximum=500,
+        meaning="Rise of the paraboloid or arch, total range of z of the hypar.",
+    )  # fmt: skip
+    zigzag: int = setting(
+        15, unit="polylines", minimum=3, maximum=1000,
+        meaning="Number of zig-zag polylines, the borders included.",
+    )  # fmt: skip
+    strip: int = setting(
+        16, unit="polylines", minimum=3, maximum=1000,
+        meaning="Number of strip polylines, the borders included.",
+    )  # fmt: skip
+    support: str = setting(
+        "all", choices=SUPPORTS,
+        meaning="Pinned borders, namely all four, the two zig-zag edges, or the two strip edges.",
+    )  # fmt: skip
+    fold_mode: str = setting(
+        "elastic", choices=FOLD_MODES,
+        former={"paper": "elastic"},
+        meaning="How the sheet is folded onto the surface.",
+    )  # fmt: skip
+    edge_beam_depth: float = setting(
+        0, unit="m", ranges=((0.05, 5), (-5, -0.05)),
+        meaning="Depth of the edge beam, whose panels hang from the unsupported borders or stand "
+        "up from them where it is below 0; docs/edge_beams.md says more.",
+    )  # fmt: skip
+    edge_beam_thickness: float = setting(
+        0, unit="m", ranges=((0.02, 2),),
+        meaning="Thickness of that strip, which no sizing rule changes; both sizes are given or "
+        "none.",
+    )  # fmt: skip
+
+
+@dataclass(frozen=True)
+class Design(DesignColumns):
+    """One design of the study; zigzag and strip are counts of polylines, both sizes of the edge
+    beam are 0 where there is none."""
+
+    name: str = dataclasses.field(kw_only=True)
+    tags: tuple[str, ...] = dataclasses.field(kw_only=True, default=())
+
+    @property
+    def panels(self) -> int:
+        """Number of panels, (zigzag - 1)(strip - 1)."""
+        return (self.zigzag - 1) * (self.strip - 1)
+
+    def to_row(self) -> dict[str, Any]:
+        """Return the design as a plain row with the columns of designs.tsv."""
+        columns = {known.key: getattr(self, name) for name, known in _COLUMNS.items()}
+        return {"design": self.name, **columns, "tags": ",".join(self.tags)}
+
+    @classmethod
+    def from_row(cls, row: Mapping[str, Any]) -> "Design":
+        """Return the design of such a row."""
+        values = {name: row[known.key] for name, known in _COLUMNS.items()}
+        tags = tuple(filter(None, row["tags"].split(",")))
+        return cls(name=row["design"], tags=tags, **values)
+
+
+_COLUMNS = list_settings(DesignColumns)
+COLUMNS = ("design", *(known.key for known in _COLUMNS.values()), "tags")
+"""Columns of designs.tsv."""

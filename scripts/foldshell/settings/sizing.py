@@ -1,0 +1,82 @@
+"""The thickness loop; thicknesses in m, volumes in m3."""
+
+from foldshell.settings.field import Group, setting, settings_group
+
+_LOOP = ("analyse", "resize", "size", "study")
+_VERDICT = ("analyse", "size", "study")
+_STEP = ("resize", "size", "study")
+"""Stages that get settings of the loop, of the verdict on an analysis, of the next thickness."""
+
+
+@settings_group
+class Sizing(Group):
+    """Thickness loop, criteria of Table 3 of the paper. Results depend on start, step and least
+    thickness."""
+
+    rule: str = setting(
+        "dead_band", choices=("dead_band", "fully_stressed", "optimality"),
+        former={"literal": "fully_stressed"}, stages=_LOOP,
+        meaning="Grow above utilization_max and shrink below utilization_min; (fully_stressed) "
+        "shrink whenever below utilization_max; or (optimality) least volume that keeps "
+        "utilization, displacement and buckling factor, by gradients.",
+    )  # fmt: skip
+    measure: str = setting(
+        "panel_mean", choices=("panel_mean", "element_max"), stages=_LOOP,
+        meaning="Utilization of a panel, its area mean (does not hang on the mesh) or the largest "
+        "value in it (the paper's).",
+    )  # fmt: skip
+    start_thickness: float = setting(
+        150, unit="mm", above=0, maximum=10000, stages=("start", "size", "study"),
+        meaning="Thickness of every panel in iteration 00.",
+    )  # fmt: skip
+    least_thickness: float = setting(40, unit="mm", above=0, maximum=10000, meaning="Lower bound.")
+    largest_thickness: float = setting(
+        1000, unit="mm", above=0, maximum=10000, meaning="Upper bound."
+    )
+    step: float = setting(
+        0.10, above=0, maximum=0.5, stages=_STEP,
+        meaning="Relative change of a thickness in one iteration.",
+    )  # fmt: skip
+    move_limit: float = setting(
+        0.3, above=0, maximum=0.9, stages=_STEP,
+        meaning="Largest relative change of a thickness in one iteration by the rule optimality; "
+        "panels that turn back get less.",
+    )  # fmt: skip
+    utilization_min: float = setting(
+        0.6, minimum=0, maximum=10, stages=_LOOP,
+        meaning="Lower end of the dead band, and least value of the largest utilization.",
+    )  # fmt: skip
+    utilization_max: float = setting(
+        1.0, above=0, maximum=10, stages=_LOOP,
+        meaning="Upper end of the dead band, and largest utilization allowed.",
+    )  # fmt: skip
+    displacement_limit_span_over: float = setting(
+        240, minimum=1, maximum=100000, stages=_VERDICT,
+        meaning="The largest downward displacement must stay below span / this.",
+    )  # fmt: skip
+    volume_change_max: float = setting(
+        10, unit="m3", above=0, maximum=100000, stages=_VERDICT,
+        meaning="Change of volume since the iteration before must be below this.",
+    )  # fmt: skip
+    volume_change_max_relative: float = setting(
+        0.01, above=0, maximum=1, stages=_VERDICT,
+        meaning="The same relative to the volume, since 10 m3 never bites on small shells.",
+    )  # fmt: skip
+    thinning_buckling_factor_min: float = setting(
+        1.5, minimum=0, maximum=1000, stages=_LOOP,
+        meaning="No panel is made thinner while the least buckling factor is below this; the rule "
+        "optimality keeps it.",
+    )  # fmt: skip
+    iterations_max: int = setting(
+        30, unit="iterations", minimum=1, maximum=99, stages=_VERDICT,
+        meaning="Analyses after which a design counts as not converged.",
+    )  # fmt: skip
+    stop: str = setting(
+        "table3", choices=("table3", "stationary"), stages=_VERDICT,
+        meaning="End at the first iteration that meets Table 3, or go on until the volume is "
+        "stationary as well.",
+    )  # fmt: skip
+    classes: int = setting(
+        4, unit="classes", minimum=1, maximum=50, stages=("size", "study"),
+        meaning="Number of thickness classes for fabrication.",
+    )  # fmt: skip

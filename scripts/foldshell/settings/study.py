@@ -1,0 +1,72 @@
+"""Every setting of a study, group by group, and the small groups."""
+
+from foldshell.settings.analysis import Analysis
+from foldshell.settings.crosscheck import Crosscheck
+from foldshell.settings.design import DesignColumns
+from foldshell.settings.exports import Drawings, Exports
+from foldshell.settings.field import Group, setting, settings_group
+from foldshell.settings.fold import Fold, Pattern
+from foldshell.settings.loads import Combinations, Loads
+from foldshell.settings.material import Material
+from foldshell.settings.sizing import Sizing
+
+
+@settings_group
+class Limits(Group):
+    """Guards."""
+
+    panels_max: int = setting(
+        4000,
+        unit="panels",
+        minimum=4,
+        maximum=9000,
+        meaning="Largest number of panels of a design.",
+    )
+
+
+@settings_group
+class Jobs(Group):
+    """How jobs are started; results do not depend on it."""
+
+    fork: bool = setting(
+        True,
+        meaning="Linux, one machine: jobs are forks of a process that has imported the libraries. "
+        "Otherwise each job starts Python anew (0.25 s of a processor).",
+    )
+
+
+@settings_group
+class Figures(Group):
+    """Pictures."""
+
+    width_px: int = setting(1600, unit="px", minimum=200, maximum=8000, meaning="Width.")
+    height_px: int = setting(1200, unit="px", minimum=200, maximum=8000, meaning="Height.")
+
+
+@settings_group
+class Settings(Group):
+    """Every setting of a study; a stage's settings hold only the groups that it takes."""
+
+    designs: str = setting(
+        "config/designs.tsv",
+        meaning="Table of designs, one row each; `--config designs=PATH` takes another one.",
+    )
+    study: str = setting(
+        "table1",
+        meaning="Tag of the designs that the default target runs and `results/summary.csv` lists; "
+        "`--config study=TAG` takes another one.",
+    )
+    defaults: DesignColumns
+    pattern: Pattern
+    fold: Fold
+    material: Material
+    loads: Loads
+    combinations: Combinations
+    analysis: Analysis
+    sizing: Sizing
+    crosscheck: Crosscheck
+    limits: Limits
+    jobs: Jobs
+    figures: Figures
+    drawings: Drawings
+    exports: Exports
