@@ -9,12 +9,8 @@ from foldshell.figures.layout import save_png
 from foldshell.figures.study_data import read_states
 from foldshell.files.whole import write_json
 from foldshell.results.design_view import view_design
-from foldshell.settings.analysis import Analysis
-from foldshell.settings.field import Plain
-from foldshell.settings.loads import Combinations, Loads
-from foldshell.settings.material import Material
-from foldshell.settings.sizing import Sizing
-from foldshell.settings.stage import read_stage
+from foldshell.settings.analysed import ANALYSED
+from foldshell.settings.stage import Plain, read_stage
 
 
 def main(
@@ -29,7 +25,7 @@ def main(
 
     `results` has one folder per design; `settings` are the plain parameters of stage `size`.
     """
-    given = read_stage(settings, Material, Loads, Combinations, Analysis, Sizing)
+    given = read_stage(settings, *ANALYSED)
     tiles = [
         make_tile(view_design(state, given, design.number["span_m"], design.pattern))
         for design, state in read_states(summary_path, results, given.combinations)

@@ -7,12 +7,8 @@ from foldshell.engine.job import run_job
 from foldshell.engine.progress import describe_iteration
 from foldshell.files.edits import keep_edited
 from foldshell.files.whole import hash_file, read_arrays, read_json, write_arrays, write_timed_json
-from foldshell.settings.analysis import Analysis
-from foldshell.settings.field import Plain
-from foldshell.settings.loads import Combinations, Loads
-from foldshell.settings.material import Material
-from foldshell.settings.sizing import Sizing
-from foldshell.settings.stage import read_stage
+from foldshell.settings.analysed import ANALYSED
+from foldshell.settings.stage import Plain, read_stage
 from foldshell.sizing.case import open_case
 from foldshell.sizing.iteration import IterationTask
 from foldshell.workbook.panels import make_panel_grid
@@ -34,7 +30,7 @@ def main(
     previous: tuple[str, str] | None = None,
 ) -> None:
     """Write analysis.npz, then analysis.json; `previous` names those of the iteration before."""
-    given = read_stage(settings, Material, Loads, Combinations, Analysis, Sizing)
+    given = read_stage(settings, *ANALYSED)
     edited = keep_edited(workbook_path)
     grid = make_panel_grid(zigzag, strip)
     bounds = given.sizing.least_thickness, given.sizing.largest_thickness

@@ -11,14 +11,8 @@ from foldshell.claims.study import judge_study, list_runs, write_spread
 from foldshell.claims.words import write_claims
 from foldshell.engine.job import run_job
 from foldshell.files.whole import atomic_path, write_json
-from foldshell.settings.analysis import Analysis
-from foldshell.settings.crosscheck import Crosscheck
-from foldshell.settings.field import Plain
-from foldshell.settings.fold import Fold, Pattern
-from foldshell.settings.loads import Combinations, Loads
-from foldshell.settings.material import Material
-from foldshell.settings.sizing import Sizing
-from foldshell.settings.stage import read_stage
+from foldshell.settings.stage import Plain, read_stage
+from foldshell.settings.stages import STAGES
 from foldshell.workbook.tables import write_csv
 
 
@@ -38,9 +32,7 @@ def main(
     with other settings (`variants`), `flats` with a flat sheet of equal volume. `settings` are
     the plain parameters of the stage `study`.
     """
-    given = read_stage(
-        settings, Pattern, Fold, Material, Loads, Combinations, Analysis, Sizing, Crosscheck
-    )
+    given = read_stage(settings, *STAGES["study"])
     found: Sources = read_sources(Path(results), designs, variants, given)
     claims = judge_study(*found, make_comparer(given.sizing))
     write_json(json_path, claims)

@@ -9,12 +9,8 @@ from foldshell.figures.layout import save_png
 from foldshell.figures.pictures import draw_design
 from foldshell.results.design_view import view_design
 from foldshell.results.state import read_state
-from foldshell.settings.analysis import Analysis
-from foldshell.settings.field import Plain
-from foldshell.settings.loads import Combinations, Loads
-from foldshell.settings.material import Material
-from foldshell.settings.sizing import Sizing
-from foldshell.settings.stage import read_stage
+from foldshell.settings.analysed import ANALYSED
+from foldshell.settings.stage import Plain, read_stage
 from foldshell.settings.study import Figures
 
 
@@ -36,7 +32,7 @@ def main(
     """Write design.vtu, design_lines.vtu and the PNG files of `pictures`, named as in `PICTURES`;
     `settings` are the parameters of stages `size` and `figures`, report_path is final.json."""
     files = mesh_path, folded_path, final_path, report_path
-    given = read_stage(settings, Material, Loads, Combinations, Analysis, Sizing, Figures)
+    given = read_stage(settings, *ANALYSED, Figures)
     state = read_state(design, *files, given.combinations, classes_path)
     view = view_design(state, given, span_m, pattern)
     write_design_vtu(vtu_path, state, view.material, given.combinations.all)

@@ -6,12 +6,8 @@ from foldshell.claims.flat_equal import analyse_flat
 from foldshell.claims.measures import Layout
 from foldshell.engine.job import run_job
 from foldshell.files.whole import read_arrays, read_json, write_json
-from foldshell.settings.analysis import Analysis
-from foldshell.settings.field import Plain
-from foldshell.settings.loads import Combinations, Loads
-from foldshell.settings.material import Material
-from foldshell.settings.sizing import Sizing
-from foldshell.settings.stage import read_stage
+from foldshell.settings.analysed import ANALYSED
+from foldshell.settings.stage import Plain, read_stage
 
 
 def main(
@@ -32,7 +28,7 @@ def main(
     """
     volume = read_json(final_path)["volume_m3"]
     sheet = read_arrays(flat_path)
-    given = read_stage(settings, Material, Loads, Combinations, Analysis, Sizing)
+    given = read_stage(settings, *ANALYSED)
     found = analyse_flat(sheet, Layout(*layout), volume, span_m, subdivisions, given)
     write_json(json_path, {"flat": flat} | found)
 

@@ -8,9 +8,8 @@ from foldshell.folding.files import write_folded, write_folded_vtu, write_qualit
 from foldshell.folding.fold import fold_sheet
 from foldshell.folding.targets import make_target
 from foldshell.pattern.fold_format import read_fold
-from foldshell.settings.field import Plain
 from foldshell.settings.fold import Fold
-from foldshell.settings.stage import read_stage
+from foldshell.settings.stage import Plain, read_stage
 
 
 def main(

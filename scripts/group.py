@@ -6,12 +6,8 @@ from pathlib import Path
 from foldshell.engine.job import run_job
 from foldshell.files.errors import InputError
 from foldshell.files.whole import read_arrays, read_json, write_arrays, write_timed_json
-from foldshell.settings.analysis import Analysis
-from foldshell.settings.field import Plain
-from foldshell.settings.loads import Combinations, Loads
-from foldshell.settings.material import Material
-from foldshell.settings.sizing import Sizing
-from foldshell.settings.stage import read_stage
+from foldshell.settings.analysed import ANALYSED
+from foldshell.settings.stage import Plain, read_stage
 from foldshell.sizing.case import open_case
 from foldshell.sizing.grouping import analyse_classes
 
@@ -34,7 +30,7 @@ def main(
         raise InputError(
             f"{last}: cannot be read: delete this file and start again, it is computed anew"
         ) from None
-    given = read_stage(settings, Material, Loads, Combinations, Analysis, Sizing)
+    given = read_stage(settings, *ANALYSED)
     case = open_case(mesh_path, given)
     found, fields = analyse_classes(case, span_m, report, arrays, classes)
     write_arrays(arrays_path, fields)

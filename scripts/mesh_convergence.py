@@ -7,11 +7,9 @@ from foldshell.engine.job import run_job
 from foldshell.files.whole import read_arrays, write_json
 from foldshell.loads.cases import make_load_cases
 from foldshell.results.mesh_convergence import estimate_errors, find_largest_errors, study_mesh
+from foldshell.settings.analysed import LOADED
 from foldshell.settings.crosscheck import Crosscheck
-from foldshell.settings.field import Plain
-from foldshell.settings.loads import Combinations, Loads
-from foldshell.settings.material import Material
-from foldshell.settings.stage import read_stage
+from foldshell.settings.stage import Plain, read_stage
 from foldshell.shell.edge_beams import make_edge_beam
 
 
@@ -28,7 +26,7 @@ def main(
 ) -> None:
     """Write mesh_convergence.json (errors of the mesh in use), crosscheck/primary.json; those of a
     mechanism hold the reason in place of numbers."""
-    given = read_stage(settings, Material, Loads, Combinations, Crosscheck)
+    given = read_stage(settings, *LOADED, Crosscheck)
     compared = given.crosscheck.strength, given.crosscheck.deflection
     combinations = {name: given.combinations.all[name] for name in compared}
     study = study_mesh(

@@ -5,11 +5,9 @@ from pathlib import Path
 from foldshell.engine.job import run_job
 from foldshell.exchange.neutral_model import make_neutral_model
 from foldshell.files.whole import read_arrays, write_json
+from foldshell.settings.analysed import LOADED
 from foldshell.settings.crosscheck import Crosscheck
-from foldshell.settings.field import Plain
-from foldshell.settings.loads import Combinations, Loads
-from foldshell.settings.material import Material
-from foldshell.settings.stage import read_stage
+from foldshell.settings.stage import Plain, read_stage
 
 
 def main(
@@ -22,7 +20,7 @@ def main(
 ) -> None:
     """Write crosscheck/model.json from mesh.npz and the final thicknesses."""
     thickness = read_arrays(final_path)["thickness"]
-    given = read_stage(settings, Material, Loads, Combinations, Crosscheck)
+    given = read_stage(settings, *LOADED, Crosscheck)
     model = make_neutral_model(design, read_arrays(mesh_path), thickness, given)
     write_json(model_path, model)
 

@@ -10,13 +10,9 @@ from foldshell.report.sections import read_files
 from foldshell.report.viewer_data import make_viewer_data
 from foldshell.results.design_view import view_design
 from foldshell.results.state import read_state
-from foldshell.settings.analysis import Analysis
+from foldshell.settings.analysed import ANALYSED
 from foldshell.settings.design import Design
-from foldshell.settings.field import Plain
-from foldshell.settings.loads import Combinations, Loads
-from foldshell.settings.material import Material
-from foldshell.settings.sizing import Sizing
-from foldshell.settings.stage import read_stage
+from foldshell.settings.stage import Plain, read_stage
 
 ARRAYS = ("mesh", "folded", "arrays", "final")
 """Inputs that hold the final state; `classes` are added to it."""
@@ -42,7 +38,7 @@ def main(
     """
     state_paths = [paths[name] for name in ARRAYS]
     one = Design.from_row(design)
-    given = read_stage(settings, Material, Loads, Combinations, Analysis, Sizing)
+    given = read_stage(settings, *ANALYSED)
     state = read_state(one.name, *state_paths, given.combinations, paths["class_arrays"])
     view = view_design(state, given, one.span, one.pattern)
     files = read_files(one, paths)

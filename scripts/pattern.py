@@ -9,8 +9,7 @@ from foldshell.pattern.design import design_sheet
 from foldshell.pattern.drawings import draw_pattern, write_dxf, write_svg
 from foldshell.pattern.fold_format import write_fold
 from foldshell.settings.exports import Drawings
-from foldshell.settings.field import Plain
-from foldshell.settings.stage import read_stage
+from foldshell.settings.stage import Plain, read_stage
 
 
 def main(

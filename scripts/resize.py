@@ -5,9 +5,8 @@ from pathlib import Path
 from foldshell.engine.job import run_job
 from foldshell.files.edits import recorded_workbook
 from foldshell.files.whole import read_arrays, read_json, write_arrays
-from foldshell.settings.field import Plain
 from foldshell.settings.sizing import Sizing
-from foldshell.settings.stage import read_stage
+from foldshell.settings.stage import Plain, read_stage
 from foldshell.sizing.step import summarise_step, take_step
 from foldshell.workbook.panels import ThicknessTable, make_panel_grid
 from foldshell.workbook.write_thickness import write_thickness

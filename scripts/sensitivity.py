@@ -6,12 +6,8 @@ from foldshell.claims.measures import Layout, measure_state
 from foldshell.claims.sensitivity import VARIANTS, change_settings
 from foldshell.engine.job import run_job
 from foldshell.files.whole import read_arrays, write_json
-from foldshell.settings.analysis import Analysis
-from foldshell.settings.field import Plain
-from foldshell.settings.loads import Combinations, Loads
-from foldshell.settings.material import Material
-from foldshell.settings.sizing import Sizing
-from foldshell.settings.stage import read_stage
+from foldshell.settings.analysed import ANALYSED
+from foldshell.settings.stage import Plain, read_stage
 from foldshell.sizing.case import open_case
 from foldshell.sizing.loop import run_loop
 
@@ -31,7 +27,7 @@ def main(
     `layout` are zigzag, strip and support of the design, `settings` the plain parameters of the
     stage `size` before the variant changes them.
     """
-    given = read_stage(settings, Material, Loads, Combinations, Analysis, Sizing)
+    given = read_stage(settings, *ANALYSED)
     changed = change_settings(given, variant)
     result = run_loop(open_case(mesh_path, changed), span_m, changed.sizing)
     measures = measure_state(

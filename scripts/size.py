@@ -1,21 +1,15 @@
 """Rule size: gather the iterations of a design into its history and its final state."""
 
-import platform
-import shutil
 from collections.abc import Sequence
-from importlib.metadata import version
 from pathlib import Path
 
+from foldshell.engine.environment import list_versions
 from foldshell.engine.job import run_job
-from foldshell.files.whole import atomic_path, read_arrays, read_json, write_json
+from foldshell.files.whole import copy_whole, read_arrays, read_json, write_json
 from foldshell.results.gather import gather_iterations, remove_superseded
-from foldshell.settings.analysis import Analysis
+from foldshell.settings.analysed import ANALYSED
 from foldshell.settings.design import Design
-from foldshell.settings.field import Plain
-from foldshell.settings.loads import Combinations, Loads
-from foldshell.settings.material import Material
-from foldshell.settings.sizing import Sizing
-from foldshell.settings.stage import read_stage
+from foldshell.settings.stage import Plain, read_stage
 from foldshell.workbook.design import write_design
 from foldshell.workbook.design_report import make_design_report
 from foldshell.workbook.history import write_history, write_history_csv
@@ -39,17 +33,15 @@ def main(
     """Write history.csv, history.xlsx, design.xlsx and copies of the last analysis, from that and
     classes.json, classes.npz. Iterations left behind the last one are removed; edited workbooks
     among them are kept under sizing/superseded."""
-    one = Design.from_row(design)
-    given = read_stage(settings, Material, Loads, Combinations, Analysis, Sizing)
+    one, given = Design.from_row(design), read_stage(settings, *ANALYSED)
     iterations = gather_iterations(json_paths, one, given.sizing)
-    versions = {"python": platform.python_version()} | {name: version(name) for name in PACKAGES}
+    versions = list_versions(PACKAGES)
     more = versions, read_json(classes_paths[0]), read_arrays(classes_paths[1])["panel_class"]
     report = make_design_report(iterations, one, given, settings_hash, *more)
     write_history_csv(csv_path, iterations.history)
     write_history(history_path, iterations.history, report.verdict, report.utilization_max)
     write_design(design_path, report)
-    with atomic_path(final_arrays_path) as temporary:
-        shutil.copyfile(iterations.last_arrays, temporary)
+    copy_whole(iterations.last_arrays, final_arrays_path)
     write_json(final_json_path, iterations.analyses[-1])
     remove_superseded(Path(csv_path).parent, len(json_paths))
 

@@ -6,9 +6,8 @@ import numpy as np
 
 from foldshell.engine.job import run_job
 from foldshell.files.edits import recorded_workbook
-from foldshell.settings.field import Plain
 from foldshell.settings.sizing import Sizing
-from foldshell.settings.stage import read_stage
+from foldshell.settings.stage import Plain, read_stage
 from foldshell.workbook.panels import ThicknessTable, make_panel_grid
 from foldshell.workbook.write_thickness import write_thickness
 

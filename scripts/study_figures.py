@@ -8,12 +8,8 @@ from foldshell.figures.charts import draw_axes_comparison, draw_comparison, save
 from foldshell.figures.planarity_chart import draw_planarity_chart
 from foldshell.figures.study_data import add_fields, read_states
 from foldshell.results.comparisons import COMPARISONS
-from foldshell.settings.analysis import Analysis
-from foldshell.settings.field import Plain
-from foldshell.settings.loads import Combinations, Loads
-from foldshell.settings.material import Material
-from foldshell.settings.sizing import Sizing
-from foldshell.settings.stage import read_stage
+from foldshell.settings.analysed import ANALYSED
+from foldshell.settings.stage import Plain, read_stage
 
 OTHERS = {"axes": draw_axes_comparison, "planarity_utilization": draw_planarity_chart}
 CHARTS = (*COMPARISONS, *OTHERS)
@@ -30,7 +26,7 @@ def main(
 
     `results` has one folder per design; `settings` are the plain parameters of stage `size`.
     """
-    given = read_stage(settings, Material, Loads, Combinations, Analysis, Sizing)
+    given = read_stage(settings, *ANALYSED)
     states = read_states(summary_path, results, given.combinations)
     designs = [add_fields(design, state) for design, state in states]
     for name, paths in charts.items():

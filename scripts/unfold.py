@@ -11,8 +11,7 @@ from foldshell.pattern.drawings import draw_pattern, write_dxf, write_svg
 from foldshell.pattern.fold_format import read_fold, write_fold
 from foldshell.pattern.unfold import describe_true_sheet, name_flat_state
 from foldshell.settings.exports import Drawings
-from foldshell.settings.field import Plain
-from foldshell.settings.stage import read_stage
+from foldshell.settings.stage import Plain, read_stage
 
 
 def main(

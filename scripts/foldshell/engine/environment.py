@@ -1,6 +1,8 @@
 """The environment that the workflow gives its jobs."""
 
-from collections.abc import MutableMapping
+import platform
+from collections.abc import Iterable, MutableMapping
+from importlib.metadata import version
 
 ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 """Jobs run side by side; threads of their own would only wait for each other."""
@@ -22,3 +24,8 @@ def prepare_environment(environment: MutableMapping[str, str]) -> None:
     for name, value in (ONE_THREAD | KEEP_MEMORY | SMALL_PAGES).items():
         environment.setdefault(name, value)
     environment.pop("PYTHONDONTWRITEBYTECODE", None)
+
+
+def list_versions(packages: Iterable[str]) -> dict[str, str]:
+    """Return the versions of Python and of installed packages, by name."""
+    return {"python": platform.python_version()} | {name: version(name) for name in packages}

@@ -4,6 +4,7 @@ import glob
 import hashlib
 import json
 import os
+import shutil
 import signal
 import zipfile
 from collections.abc import Iterator, Mapping
@@ -59,6 +60,12 @@ def _is_alive(process: int) -> bool:
     except OSError:
         pass
     return True
+
+
+def copy_whole(source: str | Path, target: str | Path) -> None:
+    """Copy the bytes of a file."""
+    with atomic_path(target) as temporary:
+        shutil.copyfile(source, temporary)
 
 
 def write_text_if_changed(path: str | Path, text: str) -> None:

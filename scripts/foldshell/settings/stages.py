@@ -4,32 +4,30 @@ from collections.abc import Mapping
 from typing import Any
 
 from foldshell.files.whole import hash_data
+from foldshell.settings.analysed import ANALYSED, LOADED
 from foldshell.settings.analysis import Analysis
 from foldshell.settings.crosscheck import Crosscheck
 from foldshell.settings.design import Design
 from foldshell.settings.exports import Drawings, Exports
 from foldshell.settings.field import Plain, list_groups
 from foldshell.settings.fold import Fold, Pattern
-from foldshell.settings.loads import Combinations, Loads
-from foldshell.settings.material import Material
 from foldshell.settings.sizing import Sizing
 from foldshell.settings.stage import to_plain
 from foldshell.settings.study import Figures, Settings
 
-_LOADED = (Material, Loads, Combinations)
 STAGES: dict[str, tuple[type, ...]] = {
     "pattern": (Pattern,),
     "fold": (Fold,),
     "mesh": (Analysis,),
     "start": (Sizing,),
-    "analyse": (*_LOADED, Analysis, Sizing),
+    "analyse": ANALYSED,
     "resize": (Sizing,),
-    "size": (*_LOADED, Analysis, Sizing),
-    "crosscheck": (*_LOADED, Crosscheck),
+    "size": ANALYSED,
+    "crosscheck": (*LOADED, Crosscheck),
     "figures": (Figures,),
     "drawings": (Drawings,),
     "exports": (Exports,),
-    "study": (Pattern, Fold, *_LOADED, Analysis, Sizing, Crosscheck),
+    "study": (Pattern, Fold, *ANALYSED, Crosscheck),
 }
 """Groups that each stage takes; a setting with `stages` of its own goes to those alone."""
 

@@ -51,13 +51,9 @@ def make_design_report(
 
     Classes are numbers.
     """
-    last = iterations.analyses[-1]
+    last, row = iterations.analyses[-1], design.to_row()
     verdict = {
-        **{
-            name: value
-            for name, value in design.to_row().items()
-            if value or "edge_beam" not in name
-        },
+        **{name: value for name, value in row.items() if value or "edge_beam" not in name},
         "verdict": last["verdict"],
         "reason": last["reason"],
         "iterations": len(iterations.analyses),

@@ -1,0 +1,9 @@
+"""The groups of settings that stages about a loaded shell share."""
+
+from foldshell.settings.analysis import Analysis
+from foldshell.settings.loads import Combinations, Loads
+from foldshell.settings.material import Material
+from foldshell.settings.sizing import Sizing
+
+LOADED = (Material, Loads, Combinations)
+ANALYSED = (*LOADED, Analysis, Sizing)
