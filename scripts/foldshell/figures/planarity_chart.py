@@ -11,7 +11,6 @@ from foldshell.figures.charts import LIMIT_COLOUR, STYLE, draw_words
 from foldshell.figures.study_data import StudyDesign
 from foldshell.results.comparisons import UNFOLDED, choose_panel_surfaces
 from foldshell.results.correlation import rank_correlation
-from foldshell.settings.design import SURFACES
 
 BINS = 10
 """Groups of equally many panels whose median is drawn."""

@@ -11,7 +11,6 @@ import numpy as np
 from foldshell.files.errors import InputError
 from foldshell.results.fields import cell_area
 from foldshell.results.state import DesignState, read_state
-from foldshell.settings.design import SUPPORTS, SURFACES
 from foldshell.settings.loads import Combinations
 from foldshell.settings.stages import FINAL_STATE
 

@@ -4,8 +4,8 @@ from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any, Protocol, TypeVar
 
-SURFACES = ("paraboloid", "hypar", "arch")
-SUPPORTS = ("all", "zigzag", "strip")
+from foldshell.settings.design import SUPPORTS, SURFACES
+
 UNFOLDED = ("smooth", "flat")
 
 
