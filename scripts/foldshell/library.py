@@ -16,14 +16,11 @@ from foldshell.folding.fold import FoldResult
 from foldshell.folding.fold import fold_sheet as fold_onto
 from foldshell.folding.mesh_target import MeshTarget
 from foldshell.folding.quadric import Quadric
-from foldshell.folding.settings import read_settings
 from foldshell.folding.targets import measure_turning
 from foldshell.pattern.design import design_sheet
 from foldshell.pattern.fold_format import write_fold
 from foldshell.pattern.sheet import Sheet
-from foldshell.settings.make import make_settings
-from foldshell.settings.options import Settings
-from foldshell.settings.stages import stage_parameters
+from foldshell.settings.study import Settings
 from foldshell.shell.edge_beams import make_edge_beam
 from foldshell.shell.mesh_files import mesh_folded_sheet
 from foldshell.sizing.case import AnalysisCase, make_case
@@ -91,12 +88,12 @@ def make_sheet(
 def fold_sheet(
     sheet: Sheet,
     target: Quadric | MeshTarget,
-    mode: str = "paper",
+    mode: str = "elastic",
     settings: Settings | None = None,
 ) -> FoldedSheet:
     """Fold a sheet onto a target; a sheet that does not reach it says so in `result.state`."""
-    values = stage_parameters(settings or make_settings({}), "fold")["fold"]
-    return FoldedSheet(sheet, target, fold_onto(sheet, target, mode, read_settings(values)))
+    chosen = (settings or Settings()).fold
+    return FoldedSheet(sheet, target, fold_onto(sheet, target, mode, chosen))
 
 
 def mesh_shell(
@@ -107,11 +104,11 @@ def mesh_shell(
 ) -> Shell:
     """Mesh a folded sheet, pin it along zig-zag, strip or all borders, and hang an edge beam of a
     depth and a thickness (m) from free ones. Raises `ValueError` for a mechanism."""
-    settings = settings or make_settings({})
+    settings = settings or Settings()
     arrays = folded_arrays(folded.sheet, folded.result)
     beam = make_edge_beam(*edge_beam)
     mesh = mesh_folded_sheet(arrays, support, settings.analysis.subdivisions, edge_beam=beam)
-    case = make_case(mesh, stage_parameters(settings, "analyse"))
+    case = make_case(mesh, settings)
     first = folded.sheet.grid.quads[:, 0]
     grid = PanelGrid(arrays["zigzag"][first], arrays["strip"][first])
     return Shell(case, grid, folded.target.span, settings)
@@ -127,22 +124,22 @@ def analyse_shell(shell: Shell, thickness: float | np.ndarray) -> SizedShell:
 
 def size_shell(shell: Shell) -> SizedShell:
     """Size the panels of a shell from the start thickness of the settings until a verdict."""
-    done = run_loop(shell.case, shell.span, stage_parameters(shell.settings, "resize")["sizing"])
+    done = run_loop(shell.case, shell.span, shell.settings.sizing)
     return _gather(shell, done.reports, done.arrays)
 
 
 def _gather(shell: Shell, reports: list, arrays: dict[str, np.ndarray]) -> SizedShell:
     unknown = np.full(shell.grid.panel.size, np.nan)
-    used = arrays.get(f"utilization_{shell.case.rule.measure}", unknown)
+    used = arrays.get(f"utilization_{shell.case.sizing.measure}", unknown)
     return SizedShell(shell, tuple(reports), arrays["thickness"], used)
 
 
 def write_workbook(path: str | Path, sized: SizedShell, title: str = "shell") -> None:
     """Write thickness.xlsx with the thicknesses (m) of a shell's panels."""
-    rule, last = sized.shell.case.rule, sized.last
+    sizing, last = sized.shell.case.sizing, sized.last
     summary = {name: last[name] for name in ("iteration", "verdict", "reason", "volume_m3")}
     table = ThicknessTable(sized.shell.grid, sized.thickness)
-    bounds = rule.least_thickness, rule.largest_thickness
+    bounds = sizing.least_thickness, sizing.largest_thickness
     write_thickness(path, table, {"design": title} | summary, *bounds)
 
 

@@ -9,6 +9,9 @@ import numpy as np
 import pytest
 
 import foldshell
+from entry_defaults import pattern_parameters
+from foldshell.settings.analysed import ANALYSED
+from foldshell.settings.stage import read_stage
 from foldshell.settings.stages import stage_parameters
 from foldshell.sizing.case import open_case
 from foldshell.sizing.loop import run_loop
@@ -62,12 +65,26 @@ def test_a_shell_by_the_front_door_is_that_of_the_rules(tmp_path):
         {"analysis": {"subdivisions": 1}, "sizing": {"iterations_max": 3}}
     )
     paths = [tmp_path / name for name in ("a.fold", "folded.npz", "a.vtu", "a.json", "mesh.npz")]
-    pattern.main(paths[0], design="a", surface="hypar", span_m=8.0, height_m=2.0, zigzag=5, strip=6)
-    how = {"design": "a", "surface": "hypar", "span_m": 8.0, "height_m": 2.0}
-    fold.main(*paths[:4], **how, settings=stage_parameters(settings, "fold")["fold"])
-    mesh.main(paths[1], paths[4], tmp_path / "m.vtu", design="a", support="strip", subdivisions=1)
-    case = open_case(paths[4], stage_parameters(settings, "analyse"))
-    expected = run_loop(case, 8.0, stage_parameters(settings, "resize")["sizing"])
+    form = {"surface": "hypar", "span_m": 8.0, "height_m": 2.0}
+    pattern.main(paths[0], design="a", **pattern_parameters(**form, zigzag=5, strip=6))
+    fold.main(
+        *paths[:4],
+        design="a",
+        **form,
+        fold_mode="elastic",
+        settings=stage_parameters(settings, "fold"),
+    )
+    mesh.main(
+        paths[1],
+        paths[4],
+        tmp_path / "m.vtu",
+        design="a",
+        support="strip",
+        subdivisions=1,
+        edge_beam=(0.0, 0.0),
+    )
+    case = open_case(paths[4], read_stage(stage_parameters(settings, "analyse"), *ANALYSED))
+    expected = run_loop(case, 8.0, settings.sizing)
 
     target = foldshell.make_target("hypar", 8.0, 2.0)
     folded = foldshell.fold_sheet(foldshell.make_sheet(target, 5, 6), target, settings=settings)
