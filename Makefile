@@ -47,7 +47,7 @@ verification: $(STAMP)
 	PATH="$(RUN):$$PATH" python -m pytest -m "verification or slow"
 
 bench: $(STAMP)
-	-$(RUN)/python -m pip install --quiet --disable-pip-version-check -r envs/bench.in
+	-$(RUN)/python -m pip install --quiet --disable-pip-version-check --require-hashes -r envs/bench.lock
 	PATH="$(RUN):$$PATH" python -m pytest -m bench tests/bench -s
 
 lint: $(STAMP)
