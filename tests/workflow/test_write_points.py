@@ -1,5 +1,6 @@
 """Killed after every single write of every rule, a study goes on and ends with the same bytes."""
 
+import json
 import os
 import shutil
 import subprocess
@@ -25,12 +26,16 @@ def targets():
     return TARGET, "results/tiny-dome/manifest.json"
 
 
-def written_files(folder):
-    """Return the relative paths of all results, in the order in which they were written."""
-    files = [path for path in (folder / "results").rglob("*") if path.is_file()]
-    files = [path for path in files if "benchmarks" not in path.parts and "logs" not in path.parts]
-    files.sort(key=lambda path: path.stat().st_mtime_ns)
-    return [path.relative_to(folder).as_posix() for path in files]
+def list_jobs(folder):
+    """Return (record, files) of every job in the order in which they ended: relative paths of its
+    record, and of all that it wrote, the record last."""
+    jobs = []
+    for record in sorted(folder.glob("results/**/jobs/*.json"), key=lambda p: p.stat().st_mtime_ns):
+        home = record.parents[1].relative_to(folder)
+        outputs = [str(home / name) for name in json.loads(record.read_text())["outputs"]]
+        own = str(record.relative_to(folder))
+        jobs.append((own, [*outputs, own]))
+    return jobs
 
 
 def kill_after(code, folder, file):
@@ -49,10 +54,12 @@ def kill_after(code, folder, file):
 
 
 def test_a_kill_after_any_write_loses_nothing(code, whole, tmp_path):
-    folder = make_study(tmp_path / "killed", ONE)
-    files = written_files(whole)
-    kills = sum(kill_after(code, folder, file) for file in files if not (folder / file).exists())
-    assert kills > 0.8 * len(files)
-    done = run(code, folder, *targets(), "--cores", "1")
+    folder, kills, writes = make_study(tmp_path / "killed", ONE), 0, 0
+    for record, files in list_jobs(whole):
+        for file in files:
+            if not (folder / record).exists():  # else the job ended, beside the one before it
+                writes, kills = writes + 1, kills + kill_after(code, folder, file)
+    assert writes > 80 and kills == writes
+    done = run(code, folder, *targets())
     assert done.returncode == 0, done.stderr[-3000:]
     assert results(folder) == results(whole)

@@ -1,0 +1,42 @@
+"""Rule archive: the study as one file that a stranger can verify and run again."""
+
+from collections.abc import Mapping, Sequence
+from datetime import UTC, datetime
+from pathlib import Path
+from typing import Any
+
+from foldshell.archive.bag import ArchiveOptions, write_archive
+from foldshell.archive.content import Study
+from foldshell.engine.job import run_job
+from foldshell.files.manifest import read_manifest
+from foldshell.files.whole import hash_data, hash_file, write_json
+
+
+def main(
+    pointer_path: str | Path,
+    *,
+    tag: str,
+    designs: Sequence[str],
+    results: str | Path,
+    project: str | Path,
+    config: Mapping[str, Any],
+    tables: Sequence[str | Path],
+    fields: bool = True,
+    dirty: str = "refuse",
+) -> None:
+    """Write `<tag>-<first 8 of the result's hash>.zip`, then archive.json, which names it."""
+    folder = Path(pointer_path).parent
+    found = [read_manifest(Path(results, name, "manifest.json")) for name in designs]
+    result = hash_data([manifest.result_sha256 for manifest in found])
+    study = Study(tag, tuple(designs), Path(results), folder.parent, Path(project))
+    path = folder / f"{tag}-{result[:8]}.zip"
+    date = datetime.now(UTC).date().isoformat()
+    options = ArchiveOptions(fields, dirty)
+    write_archive(path, study, config, [Path(table) for table in tables], result, date, options)
+    about = {"file": path.name, "sha256": hash_file(path), "bytes": path.stat().st_size}
+    write_json(pointer_path, {**about, "result_sha256": result})
+
+
+if "snakemake" in globals():
+    with run_job(snakemake):  # noqa: F821
+        main(snakemake.output.pointer, **snakemake.params)  # noqa: F821
