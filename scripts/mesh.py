@@ -9,7 +9,12 @@ from foldshell.files.errors import InputError
 from foldshell.files.whole import read_arrays
 from foldshell.folding.intersections import find_piercing
 from foldshell.shell.edge_beams import make_edge_beam
-from foldshell.shell.mesh_files import mesh_folded_sheet, read_mesh, write_mesh, write_mesh_vtu
+from foldshell.shell.mesh_files import (
+    mesh_folded_sheet,
+    mesh_from_arrays,
+    write_mesh,
+    write_mesh_vtu,
+)
 
 
 def main(
@@ -35,7 +40,7 @@ def main(
     if beam:
         _check_edge_beam(arrays, len(folded["facets"]), design)
     write_mesh(mesh_path, arrays)
-    write_mesh_vtu(vtu_path, read_mesh(mesh_path)[0], arrays)
+    write_mesh_vtu(vtu_path, mesh_from_arrays(arrays), arrays)
 
 
 def _check_edge_beam(arrays: Mapping[str, Any], sheet: int, design: str) -> None:

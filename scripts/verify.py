@@ -4,17 +4,25 @@ Says of each file that is not as it was made whether it is missing, damaged, edi
 over or made by another version; exit code 1 where there is any. It needs the folder of results
 alone. With --repair what is damaged is taken away, with all that its jobs and later ones made, so
 that the next run of Snakemake makes it anew; copies stay under replaced/.
+
+An archive of a study (.zip) is checked whole: hashes, schema of every record, sums that must close;
+with --recompute DESIGN one design is computed anew from it, and compared digit by digit.
 """
 
 import argparse
 import sys
+import tempfile
+from collections.abc import Callable, Iterable
 from pathlib import Path
 
-from foldshell.engine.integrity import find_faults, find_homes
+from foldshell.engine.integrity import Fault, find_faults, find_homes
 from foldshell.engine.repair import repair
+from foldshell.files.errors import user_errors
+
+Said = tuple[list[str], int]
 
 
-def main(results: str | Path = "results", mend: bool = False) -> tuple[list[str], int]:
+def main(results: str | Path = "results", mend: bool = False) -> Said:
     """Return lines, one per fault and what to do, and the exit code."""
     if not find_homes(results):
         return [f"{results}: no manifest and no record of a job: nothing was made here"], 1
@@ -30,11 +38,59 @@ def main(results: str | Path = "results", mend: bool = False) -> tuple[list[str]
     return lines or ["every file is as it was made"], int(bool(open_faults))
 
 
+def verify_archive(path: str | Path, recomputed: Iterable[str] = ()) -> Said:
+    """Return lines on an archive, and the exit code; `recomputed` are designs to compute anew."""
+    from foldshell.archive.check import check_bag, check_schemas, check_sums, left_out, unpack
+
+    with tempfile.TemporaryDirectory() as scratch:
+        bag = unpack(path, scratch)
+        results, lines = bag / "data/results", list(check_bag(bag))
+        out = left_out(bag)
+        faults = [f for f in find_faults(results) if not _left_out(f, results, out) and not f.used]
+        lines += [f"{fault.path}: {fault.kind}: {fault.detail}" for fault in faults]
+        if not lines:
+            lines += [*check_schemas(results), *check_sums(results)]
+        lines = [line.replace(f"{bag}/", "") for line in lines]
+        code = int(bool(lines))
+        for design in recomputed if not code else ():
+            more, failed = _recompute(bag, design, Path(scratch, f"anew-{design}"))
+            lines, code = lines + more, code | failed
+    return lines or [f"{path}: every file is as it was archived, every sum closes"], code
+
+
+def _left_out(fault: Fault, results: Path, names: set[str]) -> bool:
+    inside = fault.path.is_relative_to(results)
+    return (
+        fault.kind == "missing" and inside and fault.path.relative_to(results).as_posix() in names
+    )
+
+
+def _recompute(bag: Path, design: str, folder: Path) -> Said:
+    from foldshell.archive.recompute import recompute
+
+    found = recompute(bag, design, folder)
+    lines = [
+        f"{design}: {item.file}: "
+        + ("the same bytes" if item.same_bytes else f"differs by {item.largest:.2g} of the largest")
+        for item in found
+    ]
+    return lines, int(not all(item.passed for item in found))
+
+
+def run(call: Callable[[], Said]) -> None:
+    """Print what a check says, and exit with its code."""
+    with user_errors():
+        said, code = call()
+    print("\n".join(said))
+    sys.exit(code)
+
+
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("results", nargs="?", default="results")
     parser.add_argument("--repair", action="store_true")
+    parser.add_argument("--recompute", action="append", default=[], metavar="DESIGN")
     given = parser.parse_args()
-    said, code = main(given.results, given.repair)
-    print("\n".join(said))
-    sys.exit(code)
+    if given.results.endswith(".zip"):
+        run(lambda: verify_archive(given.results, given.recompute))
+    run(lambda: main(given.results, given.repair))

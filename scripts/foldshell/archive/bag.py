@@ -14,6 +14,7 @@ import bagit
 from foldshell.archive.content import (
     CODE,
     CONFIG,
+    LEFT_OUT,
     RESULTS,
     Study,
     clean_text,
@@ -98,6 +99,11 @@ def _copy_config(bag: Path, config: Mapping[str, Any], tables: Sequence[Path]) -
 
 def _copy_results(study: Study, bag: Path, options: ArchiveOptions) -> None:
     words = private_words(study.project)
+    if not options.fields:
+        every = {place for _, place in list_results(study, True)}
+        kept = {place for _, place in list_results(study, False)}
+        lines = "".join(f"{place}\n" for place in sorted(every - kept))
+        (bag / LEFT_OUT).write_text(lines, encoding="utf-8")
     for path, place in list_results(study, options.fields):
         target = bag / place
         target.parent.mkdir(parents=True, exist_ok=True)

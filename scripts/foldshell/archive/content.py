@@ -17,6 +17,8 @@ FIELDS = (".vtu", ".npz")
 NEEDED_FIELDS = ("folded.npz", "mesh.npz", "final.npz")
 """Fields that stay in any case: shape, mesh and final state of a design."""
 CODE, RESULTS, CONFIG = "code", "results", "config"
+LEFT_OUT = "left-out.txt"
+"""Lists the results that an archive without fields leaves out."""
 
 
 @dataclass(frozen=True)

@@ -22,7 +22,6 @@ PROFILES = {
     f"{BASE}/provenance/0.5": "Provenance Run Crate",
     "https://w3id.org/workflowhub/workflow-ro-crate/1.0": "Workflow RO-Crate",
 }
-TERMS = "https://w3id.org/ro/terms/workflow-run/context"
 LICENCE = "https://spdx.org/licenses/MIT"
 MEDIA = {
     ".json": "application/json", ".csv": "text/csv", ".tsv": "text/tab-separated-values",
@@ -79,9 +78,7 @@ def make_metadata(content: CrateContent) -> dict:
     run = _add_run(crate, content, workflow, files)
     _add_engine(crate, content, run, actions)
     root["mentions"] = [run, *(action for action, _ in actions), *edits]
-    metadata = crate.metadata.generate()
-    metadata["@context"] = [metadata["@context"], TERMS]
-    return metadata
+    return crate.metadata.generate()
 
 
 def _add(crate: ROCrate, key: str, kind: str | list[str], **values: object) -> Entity:

@@ -7,7 +7,7 @@ from typing import Any
 
 from foldshell.files.errors import user_errors
 from foldshell.files.job_record import JobRecord, hash_inputs, list_outputs, state_of, write_record
-from foldshell.files.whole import SECONDS, hash_data, hash_file
+from foldshell.files.whole import SECONDS, hash_data, hash_file, held_back
 
 LISTS = ".snakemake/"
 """Where lists of hashes stand that Snakemake takes for inputs."""
@@ -20,17 +20,23 @@ def run_job(task: Any) -> Iterator[None]:
     """Run the block as the job `task` (the global `snakemake` of a script), then record it.
 
     Inputs are hashed before the block, outputs after it: what is recorded is what the job read and
-    wrote. An error that a person can act on becomes one line and leaves no record.
+    wrote. The first output is what others wait for: it comes into place last, after the record. An
+    error that a person can act on becomes one line and leaves no record.
     """
-    with user_errors():
+    awaited = str(task.output[0])
+    with user_errors(), held_back(awaited) as content:
         inputs = hash_inputs(task.input)
         yield
-        record = describe_job(task, inputs)
+        record = describe_job(task, inputs, {awaited: content()})
         write_record(find_home(list(map(str, task.output)), dict(task.wildcards.items())), record)
 
 
-def describe_job(task: Any, inputs: Mapping[str, str]) -> JobRecord:
-    """Return the record of a job that has ended; `inputs` {path: SHA-256} as it began."""
+def describe_job(
+    task: Any, inputs: Mapping[str, str], waiting: Mapping[str, Path] | None = None
+) -> JobRecord:
+    """Return the record of a job that has ended; `inputs` {path: SHA-256} as it began, `waiting`
+    where the content of an output is that is not in its place yet."""
+    waiting = waiting or {}
     wildcards = {name: str(value) for name, value in task.wildcards.items()}
     home = find_home(list(map(str, task.output)), wildcards)
     code = str(task.input.get(CODE, ""))
@@ -40,7 +46,7 @@ def describe_job(task: Any, inputs: Mapping[str, str]) -> JobRecord:
             inside = Path(path).is_relative_to(home)
             (own if inside else external)[_relative(path, home) if inside else path] = digest
     outputs = {
-        _relative(path, home): state_of(path)
+        _relative(path, home): state_of(waiting.get(str(path), path))
         for path in list_outputs(task.output)
         if Path(path).name != SECONDS
     }

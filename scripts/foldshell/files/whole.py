@@ -7,7 +7,7 @@ import os
 import shutil
 import signal
 import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import Any
@@ -38,11 +38,42 @@ def atomic_path(path: str | Path) -> Iterator[Path]:
     temporary = path.with_name(f"{TEMPORARY_PREFIX}{os.getpid()}-{path.name}")
     try:
         yield temporary
-        os.replace(temporary, path)
-        if FAULT_POINT and str(path).endswith(FAULT_POINT):
-            os.killpg(0, signal.SIGKILL)
-    finally:
+        if str(path.absolute()) in _HELD:
+            _HELD[str(path.absolute())] = temporary
+            return
+        _put_into_place(temporary, path)
+    except BaseException:
         temporary.unlink(missing_ok=True)
+        raise
+
+
+_HELD: dict[str, Path | None] = {}
+"""Files that come into place last: absolute path, and where their content waits."""
+
+
+@contextmanager
+def held_back(path: str | Path) -> Iterator[Callable[[], Path]]:
+    """Let a file that is written in the block come into place at its end, after all others.
+
+    Yields a function that tells where its content is until then. A block that raises leaves what
+    stood there before.
+    """
+    key = str(Path(path).absolute())
+    _HELD[key] = None
+    try:
+        yield lambda: _HELD[key] or Path(path)
+        if _HELD[key]:
+            _put_into_place(_HELD[key], Path(path))
+    finally:
+        waiting = _HELD.pop(key)
+        if waiting:
+            waiting.unlink(missing_ok=True)
+
+
+def _put_into_place(temporary: Path, path: Path) -> None:
+    os.replace(temporary, path)
+    if FAULT_POINT and str(path).endswith(FAULT_POINT):
+        os.killpg(0, signal.SIGKILL)
 
 
 def _remove_leftovers(path: Path) -> None:
