@@ -81,5 +81,10 @@ class QualityRecord(QualityMeasures):
         "largest distance of a vertex from its place when the flat pattern is folded again",
         "m", "closure when folded again", left_out=True,
     )  # fmt: skip
+    beyond_border_m: float | None = entry(
+        "largest distance of an attracted vertex from the surface of a mesh file where it lies "
+        "beyond its border, and the surface is taken to go on along its tangent",
+        "m", "reach beyond the surface's border", left_out=True,
+    )  # fmt: skip
     iterations: int = entry("iterations of the solver", COUNT)
     seconds: float | None = entry("wall time of the folding", "s", left_out=True)

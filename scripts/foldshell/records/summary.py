@@ -1,11 +1,13 @@
 """summary.csv: one row per design of a study."""
 
+import dataclasses
 from dataclasses import dataclass
 
 from foldshell.records.analysis import ShellState
 from foldshell.records.design_row import DesignRow
 from foldshell.records.entry import COUNT, entry, same
 from foldshell.records.mesh_convergence import MeshConvergenceRecord
+from foldshell.records.quality import QualityMeasures
 
 
 def _design(name: str):
@@ -14,6 +16,12 @@ def _design(name: str):
 
 def _state(name: str):
     return same(ShellState, name, left_out=False)
+
+
+def _quality(name: str):
+    return dataclasses.field(
+        default=None, metadata=QualityMeasures.__dataclass_fields__[name].metadata
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,3 +67,5 @@ class SummaryRow:
     edge_beam_thickness_m: float | None = _design("edge_beam_thickness_m")
     edge_beam_volume_m3: float | None = _state("edge_beam_volume_m3")
     edge_beam_utilization_max: float | None = _state("edge_beam_utilization_max")
+    edge_strain_max: float | None = _quality("edge_strain_max")
+    planarity_max: float | None = _quality("planarity_max")

@@ -27,6 +27,8 @@ COLUMNS: dict[str, tuple[str, float]] = {
     "buckling_factor_min": ("buckling factor [-]", 1),
     "mesh_error": ("mesh error [%]", 100),
     "crosscheck": ("cross-check", 0),
+    "edge_strain_max": ("largest strain of an edge, folding [%]", 100),
+    "planarity_max": ("planarity, largest [%]", 100),
     "iterations": ("iterations", 1),
     "reason": ("reason", 0),
 }

@@ -37,10 +37,14 @@ SUMMARY_KEYS = (
     "edge_beam_thickness_m",
     "edge_beam_volume_m3",
     "edge_beam_utilization_max",
+    "edge_strain_max",
+    "planarity_max",
 )
 _EDGE_BEAM_SIZES = ("edge_beam_depth_m", "edge_beam_thickness_m")
 _ITERATIONS_MAX = 100
 _COPIED = ("volume_m3", "utilization_max", "utilization_p99", "utilization_mean")
+_OF_FOLDING = ("edge_strain_max", "planarity_max")
+"""What elastic folding costs, beside the verdict: how much it stretched and warped panels."""
 _COPIED += ("edge_beam_volume_m3", "edge_beam_utilization_max")
 
 
@@ -66,6 +70,7 @@ def make_summary_row(
     row["iterations"] = len(analyses) or None
     row["volume_per_area_m"] = _divide(last.get("volume_m3"), last.get("area_m2"))
     row["buckling_factor_min"] = find_least_factor(last)
+    row |= {key: quality.get(key) for key in _OF_FOLDING}
     row["state"], row["reason"] = _judge(quality, last, problems)
     study = _read_optional(folder / "mesh_convergence.json")
     row |= {key: study.get(key) for key in ("mesh_error", "buckling_mesh_error")}

@@ -11,9 +11,9 @@ import pytest
 import fold_checker
 from foldshell.folding.files import write_folded, write_quality
 from foldshell.folding.fold import fold_sheet
-from foldshell.folding.settings import FoldSettings
 from foldshell.folding.targets import make_target
 from foldshell.pattern.design import design_sheet
+from foldshell.settings.fold import Fold
 
 MODES = ("paper", "isometric", "exact", "rigid")
 QUADRICS = {  # z = c + p x2 + q y2 + r x y, in heights and half spans
@@ -116,7 +116,7 @@ def check_target(number, folder):
     sheet = design_sheet("miura", target.section_lengths(), zigzag, strip, 60.0, 0)
     wrong = []
     for mode in MODES:
-        result = fold_sheet(sheet, target, mode, FoldSettings())
+        result = fold_sheet(sheet, target, mode, Fold())
         write_folded(folder / "folded.npz", sheet, result)
         write_quality(folder / "quality.json", result)
         told = json.loads((folder / "quality.json").read_text())
@@ -145,7 +145,7 @@ def test_the_checker_sees_a_sheet_that_was_changed(tmp_path):
     """One vertex moved after the measures were taken: nearly every one of them differs."""
     target, own, (zigzag, strip) = make_case(6, tmp_path)
     sheet = design_sheet("miura", target.section_lengths(), zigzag, strip, 60.0, 0)
-    result = fold_sheet(sheet, target, "exact", FoldSettings())
+    result = fold_sheet(sheet, target, "exact", Fold())
     write_folded(tmp_path / "folded.npz", sheet, result)
     write_quality(tmp_path / "quality.json", result)
     told = json.loads((tmp_path / "quality.json").read_text())
