@@ -1,0 +1,167 @@
+"""The calculation sheet of a design: what an engineer checks and signs, on A4, as plain data."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import Any
+
+import numpy as np
+
+from foldshell.records.analysis import AnalysisRecord
+from foldshell.records.comparison import ComparisonRecord
+from foldshell.records.mesh_convergence import MeshConvergenceRecord
+from foldshell.report.checks import Check, find_governing
+from foldshell.report.loads_section import describe_loads
+from foldshell.report.markup import Table, format_number, make_table
+from foldshell.report.sketch import Mark
+from foldshell.results.design_view import DesignView
+from foldshell.results.fields import choose_buckling
+from foldshell.results.reactions import Reactions
+from foldshell.workbook.styles import GOOD_VERDICTS
+
+BAR_END = 1.25
+"""Share of a limit at which the bar of a check ends."""
+
+
+@dataclass(frozen=True)
+class SheetFiles:
+    """What a calculation sheet is made of."""
+
+    design: Mapping[str, Any]
+    final: AnalysisRecord
+    comparison: ComparisonRecord
+    convergence: MeshConvergenceRecord
+    checks: Sequence[Check]
+    reactions: Reactions | None
+
+
+def find_marks(view: DesignView, final: AnalysisRecord) -> list[Mark]:
+    """Return the places that govern: largest panel mean, displacement and buckling mode."""
+    state, marks = view.state, []
+    if state.utilization is not None:
+        panel = int(np.argmax(state.final["utilization_panel_mean"]))
+        middle = state.folded["vertices"][state.folded["quads"][panel]].mean(axis=0)
+        marks.append(Mark("U", f"utilization, panel {panel}", middle.tolist()))
+    if final.displacement_place_m:
+        marks.append(Mark("D", f"displacement, {final.displacement_combination}",
+                          final.displacement_place_m))  # fmt: skip
+    least = choose_buckling(state)
+    if least is not None:
+        moved = np.linalg.norm(state.buckling_mode(least[0]), axis=1)
+        marks.append(Mark("B", f"buckling mode, {least[0]}",
+                          state.cells.nodes[moved.argmax()].tolist()))  # fmt: skip
+    return marks
+
+
+def make_sheet(
+    files: SheetFiles, view: DesignView, settings: Mapping[str, Any], settings_hash: str
+) -> dict[str, Any]:
+    """Return the sheet as plain data: words and tables, each a header, rows of texts, and which
+    columns hold numbers."""
+    loads = describe_loads(settings)
+    governing = find_governing(files.checks)
+    tables = {
+        "Geometry": _geometry(files.design, files.final, view),
+        "Material": loads.material,
+        "Load cases": _load_cases(loads.cases, files.reactions),
+        "Combinations": loads.combinations,
+        "Reactions": _reactions(files.reactions),
+        "Cross-check and mesh error": _quality(files),
+    }
+    return {
+        "title": f"Calculation sheet: {files.design['design']}",
+        "verdict": files.final.verdict.replace("_", " "),
+        "good": files.final.verdict in GOOD_VERDICTS,
+        "reason": files.final.reason,
+        "governing": governing.words if governing else "no check has a value",
+        "checks": [_bar(check) for check in files.checks],
+        "tables": {name: list_texts(table) for name, table in tables.items() if table.rows},
+        "edited": files.final.edited,
+        "settings_hash": settings_hash,
+    }
+
+
+def _bar(check: Check) -> dict[str, Any]:
+    """Return a check in words, and how long its bar is (0 to 1) with 1 / BAR_END at the limit."""
+    ratio = check.ratio
+    return {
+        **{key: value for key, value in asdict(check).items() if key in ("name", "where", "met")},
+        "value": format_number(check.value),
+        "limit": format_number(check.limit),
+        "share": "–" if ratio is None else f"{100 * ratio:.0f} %",
+        "bar": min(ratio or 0.0, BAR_END) / BAR_END,
+    }
+
+
+def _geometry(design: Mapping[str, Any], final: AnalysisRecord, view: DesignView) -> Table:
+    thickness = 1e3 * view.state.final["thickness"]
+    size = np.ptp(view.state.cells.nodes, axis=0)
+    rows = [
+        ("pattern, surface", f"{design['pattern']}, {design['surface']}"),
+        ("span, height of the target [m]", f"{design['span_m']:g}, {design['height_m']:g}"),
+        ("extents x, y, z [m]", ", ".join(f"{value:.2f}" for value in size)),
+        ("zig-zags x strips", f"{design['zigzag']} x {design['strip']}"),
+        ("panels", len(thickness)),
+        ("supported edges", f"{design['support']}, pinned"),
+        ("thickness, least to largest [mm]", f"{thickness.min():.1f} to {thickness.max():.1f}"),
+        ("volume [m³]", final.volume_m3),
+        ("area of the sheet [m²]", final.area_m2),
+        ("volume / area [mm]", 1e3 * final.volume_m3 / final.area_m2),
+    ]
+    return make_table(("quantity", "value"), rows)
+
+
+def _load_cases(cases: Sequence[Any], reactions: Reactions | None) -> Table:
+    """Return the load cases with their resultants, kN."""
+    known = (
+        dict(zip(reactions.cases, reactions.resultant.T.tolist(), strict=True)) if reactions else {}
+    )
+    rows = [(case.name, f"{case.words}: {case.size}", *(round(value, 1) + 0.0 for value in
+             known.get(case.name, ()))) for case in cases]  # fmt: skip
+    header = ["case", "load", *(f"sum {axis} [kN]" for axis in "xyz" if known)]
+    return make_table(header, rows)
+
+
+def _reactions(reactions: Reactions | None) -> Table:
+    """Return the resultants of the reactions by edge and combination, and their sums, kN."""
+    header = ("combination", "support", "x [kN]", "y [kN]", "z [kN]")
+    if reactions is None:
+        return make_table(header, [])
+    rows = []
+    for k, name in enumerate(reactions.combinations):
+        for edge in reactions.edges:
+            rows.append((name, edge.name, *_round(edge.force[:, k])))
+        rows.append((name, "sum", *_round(reactions.force[:, :, k].sum(axis=0))))
+    return make_table(header, rows)
+
+
+def _round(force: np.ndarray) -> list[float]:
+    return [round(float(value), 1) + 0.0 for value in force]
+
+
+def _quality(files: SheetFiles) -> Table:
+    comparison, convergence = files.comparison, files.convergence
+    worst = max(
+        comparison.quantities.items(), default=None,
+        key=lambda item: item[1].relative_difference / item[1].tolerance,
+    )  # fmt: skip
+    rows = [("second code", comparison.outcome)]
+    if worst:
+        name, item = worst
+        words = f"{100 * item.relative_difference:.2f} % of {100 * item.tolerance:g} %"
+        rows.append(("nearest to its tolerance", f"{name.replace('_', ' ')}: {words}"))
+    if convergence.mesh_error is not None:
+        rows.append(("mesh error", f"{100 * convergence.mesh_error:.2f} %"))
+    if convergence.buckling_mesh_error is not None:
+        rows.append(("mesh error of buckling", f"{100 * convergence.buckling_mesh_error:.2f} %"))
+    if files.final.reaction_imbalance is not None:
+        rows.append(("reactions against loads", f"{files.final.reaction_imbalance:.1e}"))
+    return make_table(("what", "result"), rows)
+
+
+def list_texts(table: Table) -> dict[str, Any]:
+    """Return a table as plain data: header, which columns hold numbers, rows of texts."""
+    return {
+        "header": list(table.header),
+        "numeric": list(table.numeric),
+        "rows": [[format_number(cell.value) for cell in row] for row in table.rows],
+    }

@@ -1,0 +1,120 @@
+"""Reactions of a final state at its supported nodes and edges, and resultants of its loads."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from foldshell.loads.cases import LOAD_CASES, Loads, combination_matrix, surface_loads
+from foldshell.results.state import DesignState
+from foldshell.settings.material import Material
+from foldshell.shell.analysis import AnalysisResult, ShellModel, build_model
+from foldshell.shell.nodal_loads import nodal_forces
+from foldshell.shell.results import support_reactions
+
+
+@dataclass(frozen=True)
+class SupportedEdge:
+    """One supported edge: its name, the middle of its nodes (3,) m, and the resultant (3, c) kN of
+    the reactions there in each of c combinations."""
+
+    name: str
+    place: np.ndarray
+    force: np.ndarray
+
+
+@dataclass(frozen=True)
+class Reactions:
+    """Supports and loads of a state.
+
+    Attributes
+    ----------
+    combinations : names, c of them
+    node : (S,) supported nodes of the shell mesh
+    force : (S, 3, c) kN, what the supports exert on the shell
+    edges : resultants by supported edge; a node on a corner counts with the edge named first
+    cases : load cases, and `resultant` (3, cases) kN, the sum of each over the shell
+    """
+
+    combinations: tuple[str, ...]
+    node: np.ndarray
+    force: np.ndarray
+    edges: tuple[SupportedEdge, ...]
+    cases: tuple[str, ...]
+    resultant: np.ndarray
+
+
+def find_reactions(state: DesignState, settings: Mapping[str, Any]) -> Reactions | None:
+    """R = int B^T sigma dA + K_g u - f at the supports, from the displacements of the final state;
+    None without finite ones.
+
+    `settings` are the plain parameters of stage `size`.
+    """
+    if not state.usable:
+        return None
+    material, model = Material(**settings["material"]), _build(state, settings)
+    thickness = model.to_elements(state.final["thickness"])
+    normal = model.operators.geometry.frame[:, 2]
+    surface = surface_loads(
+        normal, thickness, material.unit_weight, Loads(**settings["loads"]), model.self_weight_only
+    )
+    given = settings["combinations"]
+    factors = combination_matrix({**given["strength"], **given["deflection"]})
+    loads = nodal_forces(model.operators, surface) @ factors
+    moved = state.final["displacement"]
+    second = settings["analysis"]["second_order"] and state.report.get("state") == "ok"
+    result = AnalysisResult("ok", "", state.combinations, moved, moved, loads,
+                            second_order=second or None)  # fmt: skip
+    force = support_reactions(model, result, thickness, material)
+    area = model.operators.geometry.area
+    return Reactions(
+        combinations=state.combinations,
+        node=model.supported_nodes,
+        force=force,
+        edges=_sum_edges(state, model.supported_nodes, force),
+        cases=LOAD_CASES,
+        resultant=np.einsum("e,exk->xk", area, surface),
+    )
+
+
+def _build(state: DesignState, settings: Mapping[str, Any]) -> ShellModel:
+    return build_model(
+        state.mesh,
+        state.shell["supported_nodes"],
+        settings["material"]["poissons_ratio"],
+        fixed_thickness=state.shell.get("fixed_thickness"),
+    )
+
+
+def _sum_edges(
+    state: DesignState, node: np.ndarray, force: np.ndarray
+) -> tuple[SupportedEdge, ...]:
+    """Return the resultants by supported border polyline, zig-zags first."""
+    edges, left = [], np.ones(len(node), dtype=bool)
+    places = state.mesh.nodes[node]
+    for kind, words in (("zigzag", "zig-zag edge"), ("strip", "strip edge")):
+        index = state.folded[kind]
+        for border, number in ((index.min(), "first"), (index.max(), "last")):
+            held = state.shell["support_pairs"]
+            pairs = held[(held < len(index)).all(axis=1)]
+            pairs = pairs[(index[pairs] == border).all(axis=1)]
+            mine = left & _on_lines(places, state.shell["vertices"][pairs])
+            if mine.any():
+                left &= ~mine
+                edges.append(SupportedEdge(f"{number} {words}", places[mine].mean(axis=0),
+                                           force[mine].sum(axis=0)))  # fmt: skip
+    if left.any():
+        edges.append(SupportedEdge("other supports", places[left].mean(axis=0),
+                                   force[left].sum(axis=0)))  # fmt: skip
+    return tuple(edges)
+
+
+def _on_lines(points: np.ndarray, lines: np.ndarray) -> np.ndarray:
+    """Tell which points (S, 3) lie on one of the segments (K, 2, 3), m: (S,) bool."""
+    start, along = lines[:, 0], lines[:, 1] - lines[:, 0]
+    length = np.maximum(np.einsum("kx,kx->k", along, along), 1e-300)
+    away = points[:, None] - start
+    share = np.clip(np.einsum("skx,kx->sk", away, along) / length, 0, 1)
+    gap = np.linalg.norm(away - share[:, :, None] * along, axis=2)
+    return (gap < 1e-6 * np.sqrt(length)).any(axis=1)

@@ -1,0 +1,67 @@
+"""Rule sheet: the calculation sheet of a design, to print from a browser, and its data."""
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from foldshell.engine.job import run_job
+from foldshell.files.whole import atomic_path, hash_data, write_json
+from foldshell.records.analysis import read_analysis
+from foldshell.records.comparison import read_comparison
+from foldshell.records.files import read_record
+from foldshell.records.mesh_convergence import MeshConvergenceRecord
+from foldshell.report.checks import list_checks, read_engineering
+from foldshell.report.markup import render
+from foldshell.report.page import shrink_picture
+from foldshell.report.sheet import SheetFiles, find_marks, make_sheet
+from foldshell.report.sketch import draw_sketch
+from foldshell.results.design_view import view_design
+from foldshell.results.reactions import find_reactions
+from foldshell.results.state import read_state
+
+PICTURE_WIDTH = 800
+
+
+def main(
+    paths: Mapping[str, str | Path],
+    html_path: str | Path,
+    data_path: str | Path,
+    *,
+    design: Mapping[str, Any],
+    settings: Mapping[str, Any],
+) -> None:
+    """Write the sheet as HTML, and as data for `sheet_pdf`.
+
+    `paths` are mesh, folded, arrays (npz), final, comparison, mesh_convergence (json) and
+    utilization (png); `design` is a row of designs.tsv, `settings` those of stage `size`.
+    """
+    name, combinations = design["design"], settings["combinations"]
+    state_paths = [paths[key] for key in ("mesh", "folded", "arrays", "final")]
+    view = view_design(
+        read_state(name, *state_paths, combinations), settings, design["span_m"], design["pattern"]
+    )
+    final = read_analysis(paths["final"])
+    convergence = read_record(paths["mesh_convergence"], MeshConvergenceRecord)
+    checks = list_checks(final, read_engineering(Path(paths["final"]).parents[1]))
+    comparison, reactions = (
+        read_comparison(paths["comparison"]),
+        find_reactions(view.state, settings),
+    )
+    files = SheetFiles(design, final, comparison, convergence, checks, reactions)
+    sheet = make_sheet(files, view, settings, hash_data(settings)[:12])
+    sketch = draw_sketch(view, find_marks(view, final))
+    picture = shrink_picture(paths["utilization"], PICTURE_WIDTH)
+    page = render("sheet.html", title=sheet["title"], sheet=sheet, sketch=sketch, picture=picture)
+    with atomic_path(html_path) as temporary:
+        temporary.write_text(page, encoding="utf-8")
+    write_json(data_path, sheet | {"sketch": sketch})
+
+
+if "snakemake" in globals():
+    with run_job(snakemake):  # noqa: F821
+        main(
+            snakemake.input,  # noqa: F821
+            snakemake.output.html,  # noqa: F821
+            snakemake.output.data,  # noqa: F821
+            **snakemake.params,  # noqa: F821
+        )

@@ -1,0 +1,41 @@
+"""Rule summary_pdf: the summary of a study as PDF, A4."""
+
+import io
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from PIL import Image
+
+from foldshell.engine.job import run_job
+from foldshell.report.pdf import pack_data, write_pdf
+from foldshell.report.study_report import read_study
+from foldshell.report.summary_sheet import make_summary_sheet
+from foldshell.settings.stages import settings_hash
+
+
+def main(
+    paths: Mapping[str, str | Path],
+    pdf_path: str | Path,
+    *,
+    study: str,
+    results: str | Path,
+    settings: Mapping[str, Any],
+) -> None:
+    """Write counts, worst checks, a table of all designs, and the page of all pictures.
+
+    `paths` are summary (csv), tiles (json) and sheet (png), `results` has one folder per design,
+    `settings` are the plain parameters of stage `study`.
+    """
+    files = read_study(study, paths["summary"], results, paths["tiles"], {}, None, "")
+    data = make_summary_sheet(files, settings_hash(settings))
+    stream = io.BytesIO()
+    with Image.open(paths["sheet"]) as whole:
+        whole.convert("RGB").save(stream, format="PNG")
+    pictures = {"all_thickness.png": stream.getvalue()}
+    write_pdf(pdf_path, "summary", {"summary.json": pack_data(data)} | pictures)
+
+
+if "snakemake" in globals():
+    with run_job(snakemake):  # noqa: F821
+        main(snakemake.input, snakemake.output.pdf, **snakemake.params)  # noqa: F821
