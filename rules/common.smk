@@ -93,6 +93,7 @@ SCHEMAS = [f"{RESULTS}/schemas/{file.name}.schema.json" for file in FILES]
 def design_files(name):
     """Return what is made of a design, but its manifest."""
     files = ["design.xlsx", "design.vtu", "crosscheck/comparison.json", "page.html"]
+    files += ["sheet.html"]
     files += [f"figures/{picture}.png" for picture in PICTURES]
     unfolded = [f"pattern/developable_pattern.{kind}" for kind in ("fold", "dxf", "svg")]
     files += unfolded * (BY_NAME[name].fold_mode in ("exact", "rigid"))

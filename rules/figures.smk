@@ -1,6 +1,9 @@
 # Figures over all designs.
 
 
+include: "report_files.smk"
+
+
 rule study_figures:
     input:
         summary=rules.summary.output.csv,

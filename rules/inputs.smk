@@ -1,8 +1,6 @@
 # Files: logs and times of jobs, what the rules over all designs read and write.
 
 from foldshell.claims.sensitivity import VARIANTS
-from foldshell.results.comparisons import explain_left_out
-from foldshell.settings.stages import FINAL_STATE
 
 
 def results_folder(_wildcards):
@@ -69,64 +67,3 @@ JUDGED = {
 SIZED = ["folded/folded.npz", "folded/quality.json", "shell/mesh.npz", "mesh_convergence.json"]
 SIZED += ["sizing/00/analysis.json", "sizing/00/analysis.npz", "sizing/final.json"]
 SIZED += ["sizing/final.npz", "crosscheck/comparison.json"]
-
-
-LEFT_OUT = explain_left_out(design.to_row() for design in with_tags(SETTINGS.study))
-# Two halves, for two cores: nothing but the report comes after them.
-CHARTS = ["supports", "surface", "curvature", "axes"]
-CHARTS = [name for name in CHARTS if name not in LEFT_OUT]
-PANEL_CHARTS = ["density_zigzag", "density_strip", "planarity_utilization"]
-PANEL_CHARTS = [name for name in PANEL_CHARTS if name not in LEFT_OUT]
-SHEETS = ["all_thickness", "all_utilization"]
-
-
-def figure(name):
-    """Return a figure over all designs, flagged for the report."""
-    return report(
-        f"{RESULTS}/figures/{name}.png",
-        category="3 Figures",
-        caption="../docs/report/figure.rst",
-        labels={"figure": name.replace("_", " ")},
-    )
-
-
-def charts(names):
-    """Return the outputs of a rule that draws charts."""
-    return {name: [figure(name), f"{RESULTS}/figures/{name}.svg"] for name in names}
-
-
-def final_states(_wildcards):
-    """Return what figures over all designs read."""
-    names = names_of_tag(SETTINGS.study)
-    return [f"{RESULTS}/{name}/{file}" for name in names for file in FINAL_STATE]
-
-
-def has_claims():
-    """Tell whether the claims are judged or asked for: they need many more runs than the study."""
-    asked = is_target("report", "snakemake_report", "claims")
-    return asked or Path(f"{RESULTS}/claims.json").exists()
-
-
-def judged_claims(wildcards):
-    """Return the claims for the report, nothing where they are not judged."""
-    return f"{RESULTS}/claims.json" if has_claims() else []
-
-
-def charts_of_study(wildcards):
-    """Return the charts that compare anything."""
-    return [f"{RESULTS}/figures/{name}.png" for name in CHARTS + PANEL_CHARTS]
-
-
-def report_files(wildcards):
-    """Return what Snakemake's own report shows."""
-    pages = [f"{RESULTS}/report/{name}.html" for name in ("summary", "verification", "settings")]
-    pages += [f"{RESULTS}/timings.csv"] + [f"{RESULTS}/report/claims.html"] * has_claims()
-    figures = [f"{RESULTS}/figures/{name}.png" for name in CHARTS + PANEL_CHARTS + SHEETS]
-    designs = [f"{RESULTS}/{name}/page.html" for name in names_of_tag(SETTINGS.study)]
-    return pages + figures + designs
-
-
-def report_designs(wildcards):
-    """Return the files of designs that our report reads, and the pages that it leads to."""
-    files = ["sizing/final.json", "crosscheck/comparison.json", "mesh_convergence.json", "page.html"]
-    return [f"{RESULTS}/{name}/{file}" for name in names_of_tag(SETTINGS.study) for file in files]

@@ -115,3 +115,6 @@ rule snakemake_report:
         "Snakemake's own report"
     script:
         "../scripts/snakemake_report.py"
+
+
+include: "sheets.smk"

@@ -2,10 +2,9 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from foldshell.engine.job import run_job
-from foldshell.files.whole import atomic_path, hash_data, write_json
+from foldshell.files.whole import atomic_path, write_json
 from foldshell.records.analysis import read_analysis
 from foldshell.records.comparison import read_comparison
 from foldshell.records.files import read_record
@@ -18,6 +17,10 @@ from foldshell.report.sketch import draw_sketch
 from foldshell.results.design_view import view_design
 from foldshell.results.reactions import find_reactions
 from foldshell.results.state import read_state
+from foldshell.settings.analysed import ANALYSED
+from foldshell.settings.design import Design
+from foldshell.settings.stage import Plain, read_stage
+from foldshell.settings.stages import settings_hash
 
 PICTURE_WIDTH = 800
 
@@ -27,28 +30,24 @@ def main(
     html_path: str | Path,
     data_path: str | Path,
     *,
-    design: Mapping[str, Any],
-    settings: Mapping[str, Any],
+    design: Plain,
+    settings: Plain,
 ) -> None:
     """Write the sheet as HTML, and as data for `sheet_pdf`.
 
     `paths` are mesh, folded, arrays (npz), final, comparison, mesh_convergence (json) and
     utilization (png); `design` is a row of designs.tsv, `settings` those of stage `size`.
     """
-    name, combinations = design["design"], settings["combinations"]
+    one, given = Design.from_row(design), read_stage(settings, *ANALYSED)
     state_paths = [paths[key] for key in ("mesh", "folded", "arrays", "final")]
-    view = view_design(
-        read_state(name, *state_paths, combinations), settings, design["span_m"], design["pattern"]
-    )
+    state = read_state(one.name, *state_paths, given.combinations)
+    view = view_design(state, given, one.span, one.pattern)
     final = read_analysis(paths["final"])
     convergence = read_record(paths["mesh_convergence"], MeshConvergenceRecord)
     checks = list_checks(final, read_engineering(Path(paths["final"]).parents[1]))
-    comparison, reactions = (
-        read_comparison(paths["comparison"]),
-        find_reactions(view.state, settings),
-    )
-    files = SheetFiles(design, final, comparison, convergence, checks, reactions)
-    sheet = make_sheet(files, view, settings, hash_data(settings)[:12])
+    comparison, reactions = read_comparison(paths["comparison"]), find_reactions(state, given)
+    files = SheetFiles(one, final, comparison, convergence, checks, reactions)
+    sheet = make_sheet(files, view, given, settings_hash(settings))
     sketch = draw_sketch(view, find_marks(view, final))
     picture = shrink_picture(paths["utilization"], PICTURE_WIDTH)
     page = render("sheet.html", title=sheet["title"], sheet=sheet, sketch=sketch, picture=picture)

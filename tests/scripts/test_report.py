@@ -13,6 +13,8 @@ import report
 from foldshell.files.whole import write_json
 from foldshell.report import study_report
 from foldshell.report.checks import Check, find_governing, find_ratio
+from foldshell.settings.make import make_settings
+from foldshell.settings.stages import stage_parameters
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("chrome")
 EVIL = "</script><img src=x onerror=\"document.title='owned'\">"
@@ -23,13 +25,7 @@ ROW = {"design": "a", "tags": "supports,mine", "pattern": "miura", "surface": "a
        "displacement_vertical_max_m": "0.0547", "buckling_factor_min": "10.1",
        "mesh_error": "0.0157", "crosscheck": "pass", "settings_hash": "12a1bc63e94b",
        "reason": "all criteria are met"}  # fmt: skip
-SETTINGS = {
-    "material": {"name": "C25/30", "youngs_modulus": 31e6, "poissons_ratio": 0.2,
-                 "unit_weight": 25.0, "strength": 16.7e3, "criterion": "von_mises"},
-    "loads": {"superimposed_dead": 0.5, "live": 1.0, "wind": 1.7, "wind_fraction": 0.5,
-              "area_basis": "mesh"},
-    "combinations": {"strength": {"S1": {"SW": 1.4}}, "deflection": {"D1": {"SW": 1.0}}},
-}  # fmt: skip
+SETTINGS = stage_parameters(make_settings({}), "study")
 
 
 def final_of(**changed):
@@ -101,7 +97,8 @@ def test_report_says_all_without_its_neighbours(tmp_path):
     for words in ("1 converged", "1 unstable", "2 pass", "vertical displacement, down [mm]",
                   "0.81, limit 1 (81 % of its limit)", "54.7", "combination D1 at x 1.0",
                   "Not drawn: curvature, no two designs.", "snakemake --cores 2 claims",
-                  "<td>plate</td>", "1.7 x 0.5", "unit weight", "displacement [%]"):  # fmt: skip
+                  "<td>plate</td>", "0.85 kN/m² of sheet", "unit weight",
+                  "displacement [%]"):  # fmt: skip
         assert words in text, words
     assert text.count('<article class="card"') == 2
     assert 'href="./a/page.html"' in text

@@ -1,10 +1,26 @@
 """Material, load cases and combinations in words, for pages and calculation sheets."""
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
 
+from foldshell.loads.cases import DOWN, GLOBAL_X, GLOBAL_Y, WEIGHT, SurfaceLoad, make_load_cases
 from foldshell.report.markup import Table, format_number, make_table
+from foldshell.settings.field import list_settings
+from foldshell.settings.loads import Combinations
+from foldshell.settings.material import Material
+from foldshell.settings.stage import StageSettings
+
+DIRECTIONS = {
+    None: ("against the normal of each facet", "normal"),
+    DOWN: ("down", "down"),
+    GLOBAL_X: ("along x", "x"),
+    GLOBAL_Y: ("along y", "y"),
+}
+"""Directions of load cases in words, and how their arrows point in a sketch."""
+NAMES = {"SW": "self-weight", "SDL": "superimposed dead load", "LL": "live load", "WX": "wind",
+         "WY": "wind"}  # fmt: skip
+FACTORS = {"youngs_modulus": 1e6, "strength": 1e3, "strength_tension": 1e3}
+"""What kPa are divided by for the unit of the setting."""
 
 
 @dataclass(frozen=True)
@@ -27,40 +43,41 @@ class LoadsText:
     material: Table
 
 
-def describe_loads(settings: Mapping[str, Any]) -> LoadsText:
-    """Return load cases, combinations and material of plain settings (kN, m, kPa)."""
-    loads, material = settings["loads"], settings["material"]
-    basis = "of sheet" if loads["area_basis"] == "mesh" else "of plan"
-    wind = loads["wind"] * loads["wind_fraction"]
-    size = f"{wind:g} kN/m² {basis} ({loads['wind']:g} x {loads['wind_fraction']:g})"
-    cases = (
-        LoadCase("SW", "self-weight, down",
-                 f"{material['unit_weight']:g} kN/m³ x thickness", "down"),
-        LoadCase("SDL", "superimposed dead load, against the normal of each facet",
-                 f"{loads['superimposed_dead']:g} kN/m² of sheet", "normal"),
-        LoadCase("LL", "live load, down", f"{loads['live']:g} kN/m² {basis}", "down"),
-        LoadCase("WX", "wind along x", size, "x"),
-        LoadCase("WY", "wind along y", size, "y"),
-    )  # fmt: skip
-    names = [case.name for case in cases]
+def describe_loads(settings: StageSettings) -> LoadsText:
+    """Return load cases, combinations and material of the settings of stage `size`."""
+    cases = make_load_cases(settings.loads, settings.material.unit_weight)
+    return LoadsText(
+        tuple(_describe_case(case) for case in cases),
+        _list_combinations(settings.combinations, cases),
+        _list_material(settings.material),
+    )
+
+
+def _describe_case(case: SurfaceLoad) -> LoadCase:
+    words, arrows = DIRECTIONS.get(case.direction, (f"along {case.direction}", "down"))
+    basis = "of sheet" if case.area == "sheet" else "of plan"
+    size = f"{case.value:g} kN/m² {basis}"
+    if case.kind == WEIGHT:
+        size = f"{case.value:g} kN/m³ x thickness"
+    return LoadCase(case.case, f"{NAMES.get(case.case, 'load')} {words}", size, arrows)
+
+
+def _list_combinations(combinations: Combinations, cases: Sequence[SurfaceLoad]) -> Table:
+    names = [case.case for case in cases]
     rows = [
-        (name, group, *(factors.get(case) for case in names))
-        for group, combinations in settings["combinations"].items()
-        for name, factors in combinations.items()
+        (name, kind, *(factors.get(case) for case in names))
+        for kind in ("strength", "deflection")
+        for name, factors in getattr(combinations, kind).items()
     ]
-    return LoadsText(cases, make_table(["combination", "of", *names], rows), _material(material))
+    return make_table(["combination", "of", *names], rows)
 
 
-def _material(material: Mapping[str, Any]) -> Table:
-    strength = {"strength": "compressive strength [MPa]",
-                "strength_tension": "tensile strength [MPa]"}  # fmt: skip
-    rows = [
-        ("material", material["name"]),
-        ("Young's modulus [GPa]", format_number(material["youngs_modulus"] / 1e6)),
-        ("Poisson's ratio [-]", format_number(material["poissons_ratio"])),
-        ("unit weight [kN/m³]", format_number(material["unit_weight"])),
-        *((words, format_number(material[key] / 1e3)) for key, words in strength.items()
-          if material.get(key) is not None),
-        ("strength criterion", str(material.get("criterion", "")).replace("_", " ")),
-    ]  # fmt: skip
+def _list_material(material: Material) -> Table:
+    rows = []
+    for name, about in list_settings(Material).items():
+        value = getattr(material, name)
+        if isinstance(value, float | int):
+            value = format_number(value / FACTORS.get(name, 1))
+        unit = f" [{about.unit}]" if about.unit else ""
+        rows.append((f"{name.replace('_', ' ')}{unit}", str(value).replace("_", " ")))
     return make_table(("property", "value"), rows)

@@ -22,6 +22,7 @@ SHOWN = {"principal_stress_lines": "principal stress lines", "isolines": "utiliz
          "buckling": "buckling mode", "strain": "strain of the folding"}  # fmt: skip
 """Pictures that the 3D view does not replace."""
 FILES = {
+    "sheet.html": "calculation sheet, to print",
     "design.xlsx": "workbook of the design",
     "sizing/history.xlsx": "history of the sizing loop",
     "crosscheck/comparison.xlsx": "cross-check, both codes",

@@ -1,6 +1,6 @@
 """The calculation sheet of a design: what an engineer checks and signs, on A4, as plain data."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass
 from typing import Any
 
@@ -16,6 +16,8 @@ from foldshell.report.sketch import Mark
 from foldshell.results.design_view import DesignView
 from foldshell.results.fields import choose_buckling
 from foldshell.results.reactions import Reactions
+from foldshell.settings.design import Design
+from foldshell.settings.stage import StageSettings
 from foldshell.workbook.styles import GOOD_VERDICTS
 
 BAR_END = 1.25
@@ -26,7 +28,7 @@ BAR_END = 1.25
 class SheetFiles:
     """What a calculation sheet is made of."""
 
-    design: Mapping[str, Any]
+    design: Design
     final: AnalysisRecord
     comparison: ComparisonRecord
     convergence: MeshConvergenceRecord
@@ -53,7 +55,7 @@ def find_marks(view: DesignView, final: AnalysisRecord) -> list[Mark]:
 
 
 def make_sheet(
-    files: SheetFiles, view: DesignView, settings: Mapping[str, Any], settings_hash: str
+    files: SheetFiles, view: DesignView, settings: StageSettings, settings_hash: str
 ) -> dict[str, Any]:
     """Return the sheet as plain data: words and tables, each a header, rows of texts, and which
     columns hold numbers."""
@@ -68,7 +70,7 @@ def make_sheet(
         "Cross-check and mesh error": _quality(files),
     }
     return {
-        "title": f"Calculation sheet: {files.design['design']}",
+        "title": f"Calculation sheet: {files.design.name}",
         "verdict": files.final.verdict.replace("_", " "),
         "good": files.final.verdict in GOOD_VERDICTS,
         "reason": files.final.reason,
@@ -92,16 +94,16 @@ def _bar(check: Check) -> dict[str, Any]:
     }
 
 
-def _geometry(design: Mapping[str, Any], final: AnalysisRecord, view: DesignView) -> Table:
+def _geometry(design: Design, final: AnalysisRecord, view: DesignView) -> Table:
     thickness = 1e3 * view.state.final["thickness"]
     size = np.ptp(view.state.cells.nodes, axis=0)
     rows = [
-        ("pattern, surface", f"{design['pattern']}, {design['surface']}"),
-        ("span, height of the target [m]", f"{design['span_m']:g}, {design['height_m']:g}"),
+        ("pattern, surface", f"{design.pattern}, {design.surface}"),
+        ("span, height of the target [m]", f"{design.span:g}, {design.height:g}"),
         ("extents x, y, z [m]", ", ".join(f"{value:.2f}" for value in size)),
-        ("zig-zags x strips", f"{design['zigzag']} x {design['strip']}"),
+        ("zig-zags x strips", f"{design.zigzag} x {design.strip}"),
         ("panels", len(thickness)),
-        ("supported edges", f"{design['support']}, pinned"),
+        ("supported edges", f"{design.support}, pinned"),
         ("thickness, least to largest [mm]", f"{thickness.min():.1f} to {thickness.max():.1f}"),
         ("volume [m³]", final.volume_m3),
         ("area of the sheet [m²]", final.area_m2),

@@ -25,6 +25,8 @@ from foldshell.report.provenance import Provenance
 from foldshell.report.study_columns import Column, choose_columns, count_verdicts, make_row
 from foldshell.report.study_pages import list_settings
 from foldshell.report.verification import make_verification
+from foldshell.settings.analysed import LOADED
+from foldshell.settings.stage import read_stage
 
 FIGURE_WIDTH = 800
 SIZE_MAX = 20_000_000
@@ -96,6 +98,7 @@ def write_study_report(
     Raises `ValueError` where it is larger than `SIZE_MAX` bytes.
     """
     columns = choose_columns([entry.row for entry in files.designs])
+    analysed = {kind: settings[kind] for kind in ("material", "loads", "combinations")}
     cards = [_make_card(entry, columns, to_results, files.tiles) for entry in files.designs]
     page = render(
         "study.html",
@@ -113,7 +116,7 @@ def write_study_report(
         claims=files.claims,
         verification=make_verification(files.designs),
         benchmarks=render_markdown(files.verification),
-        loads=describe_loads(settings),
+        loads=describe_loads(read_stage(analysed, *LOADED)),
         settings=list_settings(settings),
         settings_hash=settings_hash,
         provenance=provenance,
@@ -134,7 +137,7 @@ def _make_card(
     return {
         "name": entry.name,
         "page": f"{to_results}/{entry.name}/page.html",
-        "sheet": f"{to_results}/{entry.name}/sheet.pdf",
+        "sheet": f"{to_results}/{entry.name}/sheet.html",
         "values": {key: cell.value for key, cell in row.items()},
         "kinds": {key: cell.kind for key, cell in row.items() if cell.kind},
         "governing": governing.words if governing else "no check has a value",

@@ -1,14 +1,12 @@
 """Reactions of a final state at its supported nodes and edges, and resultants of its loads."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
-from foldshell.loads.cases import LOAD_CASES, Loads, combination_matrix, surface_loads
+from foldshell.loads.cases import combination_matrix, make_load_cases, surface_loads
 from foldshell.results.state import DesignState
-from foldshell.settings.material import Material
+from foldshell.settings.stage import StageSettings
 from foldshell.shell.analysis import AnalysisResult, ShellModel, build_model
 from foldshell.shell.nodal_loads import nodal_forces
 from foldshell.shell.results import support_reactions
@@ -45,25 +43,24 @@ class Reactions:
     resultant: np.ndarray
 
 
-def find_reactions(state: DesignState, settings: Mapping[str, Any]) -> Reactions | None:
+def find_reactions(state: DesignState, settings: StageSettings) -> Reactions | None:
     """R = int B^T sigma dA + K_g u - f at the supports, from the displacements of the final state;
     None without finite ones.
 
-    `settings` are the plain parameters of stage `size`.
+    `settings` are those of stage `size`.
     """
     if not state.usable:
         return None
-    material, model = Material(**settings["material"]), _build(state, settings)
+    material, model = settings.material, _build(state, settings.material.poissons_ratio)
     thickness = model.to_elements(state.final["thickness"])
     normal = model.operators.geometry.frame[:, 2]
-    surface = surface_loads(
-        normal, thickness, material.unit_weight, Loads(**settings["loads"]), model.self_weight_only
-    )
-    given = settings["combinations"]
-    factors = combination_matrix({**given["strength"], **given["deflection"]})
+    cases = make_load_cases(settings.loads, material.unit_weight)
+    surface = surface_loads(normal, thickness, cases, model.self_weight_only)
+    names = tuple(case.case for case in cases)
+    factors = combination_matrix(settings.combinations.all, names)
     loads = nodal_forces(model.operators, surface) @ factors
     moved = state.final["displacement"]
-    second = settings["analysis"]["second_order"] and state.report.get("state") == "ok"
+    second = settings.analysis.second_order and state.report.get("state") == "ok"
     result = AnalysisResult("ok", "", state.combinations, moved, moved, loads,
                             second_order=second or None)  # fmt: skip
     force = support_reactions(model, result, thickness, material)
@@ -73,18 +70,14 @@ def find_reactions(state: DesignState, settings: Mapping[str, Any]) -> Reactions
         node=model.supported_nodes,
         force=force,
         edges=_sum_edges(state, model.supported_nodes, force),
-        cases=LOAD_CASES,
+        cases=names,
         resultant=np.einsum("e,exk->xk", area, surface),
     )
 
 
-def _build(state: DesignState, settings: Mapping[str, Any]) -> ShellModel:
-    return build_model(
-        state.mesh,
-        state.shell["supported_nodes"],
-        settings["material"]["poissons_ratio"],
-        fixed_thickness=state.shell.get("fixed_thickness"),
-    )
+def _build(state: DesignState, poissons_ratio: float) -> ShellModel:
+    held, fixed = state.shell["supported_nodes"], state.shell.get("fixed_thickness")
+    return build_model(state.mesh, held, poissons_ratio, fixed_thickness=fixed)
 
 
 def _sum_edges(
