@@ -5,7 +5,7 @@ MODULES = [
     "snakemake.script", "pattern", "fold", "mesh", "start", "analyse", "resize", "xlsxwriter",
     "foldshell.shell.warm_up", "cvxopt.amd", "group", "size", "neutral_model",
     "mesh_convergence", "compare", "crosscheck.verdict", "crosscheck.workbook", "draw",
-    "meshio", "page", "vtkmodules.vtkRenderingOpenGL2", "vtkmodules.util.numpy_support",
+    "meshio", "page", "sheet", "vtkmodules.vtkRenderingOpenGL2", "vtkmodules.util.numpy_support",
     "ezdxf", "sensitivity", "flat_equal", "summary", "timings", "report_pages", "report",
     "all_designs",
     "study_figures", "manifest",
