@@ -1,33 +1,8 @@
 """Rooms import only rooms below them; the topmost ones import none of each other."""
 
 import ast
-from pathlib import Path
 
-LIBRARY = Path(__file__).parents[2] / "scripts" / "foldshell"
-ROOMS = (
-    "files",
-    "settings",
-    "records",
-    "loads",
-    "pattern",
-    "folding",
-    "kinematics",
-    "shell",
-    "checks",
-    "sizing",
-    "results",
-    "workbook",
-    "claims",
-    "explore",
-    "figures",
-    "report",
-    "exchange",
-    "archive",
-    "engine",
-)
-"""From the floor up: a room may import the rooms before it, and itself."""
-LEAVES = {"figures", "report", "exchange", "archive"}
-"""Above the results; none of them imports another."""
+from rooms import LEAVES, LIBRARY, ROOMS
 
 
 def imported_rooms(path):

@@ -1,0 +1,1 @@
+"""The paper's claims judged by numbers with their uncertainty, and under other settings."""

@@ -1,4 +1,4 @@
-"""What knows how the workflow runs: imports, environment, integrity, timings, progress, forks.
+"""What knows how the workflow runs: jobs, imports, records, progress, timings, forks.
 
 `fork_client.ForkServer` starts a process (`fork_server.py`) that has imported the libraries of the
 jobs already and runs scripts in forks of itself: Python, numpy and the rest of the imports take

@@ -1,0 +1,1 @@
+"""Pictures of designs and charts over all of them."""

@@ -1,0 +1,1 @@
+"""Load cases, and combinations of them with their factors."""

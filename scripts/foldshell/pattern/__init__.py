@@ -1,1 +1,1 @@
-"""Crease patterns: geometry, topology, folding path, files."""
+"""Crease patterns: geometry, topology, folding path, unfolding, FOLD files and drawings."""

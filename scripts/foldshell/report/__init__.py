@@ -1,0 +1,1 @@
+"""Pages: one per design with a 3D view, and the report of the study."""

@@ -1,0 +1,1 @@
+"""The shell element, assembly, solvers, buckling and second order, supports, edge beams."""

@@ -1,0 +1,1 @@
+"""The thickness loop: criteria, rules, gradients, classes."""

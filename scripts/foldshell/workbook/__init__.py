@@ -1,0 +1,1 @@
+"""Excel workbooks: thicknesses written and read back, history, design, summary."""
