@@ -1,1 +1,1 @@
-"""Floor of all rooms: error sentences, whole files, hashes and manifests, mesh files of any format."""
+"""The floor: error sentences, whole files, hashes, manifests, mesh files of any format."""

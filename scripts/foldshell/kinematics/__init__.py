@@ -1,1 +1,1 @@
-"""What a Miura sheet can do by itself: mechanisms, Poisson's ratios, the paper's geometric rules."""
+"""What a Miura sheet can do: mechanisms, Poisson's ratios, the paper's geometric rules."""

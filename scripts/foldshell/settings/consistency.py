@@ -2,6 +2,7 @@
 
 from foldshell.files.errors import InputError
 from foldshell.settings.crosscheck import Crosscheck
+from foldshell.settings.design import Design
 from foldshell.settings.loads import Combinations, Loads
 from foldshell.settings.nearest import hint_nearest
 from foldshell.settings.sizing import Sizing
@@ -31,6 +32,22 @@ def check_sizing(sizing: Sizing, source: str) -> None:
             f"{source}: sizing.utilization_min: {sizing.utilization_min:g}: less than "
             f"utilization_max = {sizing.utilization_max:g} is allowed"
         )
+
+
+def check_thickness(design: Design, sizing: Sizing, where: str) -> None:
+    """Check that the loop begins with, and may end in, panels that are wider than thick.
+
+    A panel's width in plan is the closest distance of two polylines; folded panels are wider.
+    """
+    width = design.span / (max(design.zigzag, design.strip) - 1)
+    for key in ("start_thickness", "least_thickness"):
+        thickness = getattr(sizing, key)
+        if thickness >= width:
+            raise InputError(
+                f"{where}: span_m: {design.span:g} m with {design.zigzag} x {design.strip} lines "
+                f"makes panels of {1e3 * width:.4g} mm in plan: a sizing.{key}_mm below that is "
+                f"allowed, it is {1e3 * thickness:g}"
+            )
 
 
 def check_combinations(combinations: Combinations, loads: Loads, source: str) -> None:

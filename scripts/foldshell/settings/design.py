@@ -28,7 +28,10 @@ class DesignColumns(Group):
         "paraboloid",
         meaning=f"Target surface by name ({', '.join(SURFACES)}) or a mesh file in metres.",
     )
-    span: float = setting(28, unit="m", above=0, maximum=500, meaning="Side of the square plan.")
+    span: float = setting(
+        28, unit="m", minimum=0.1, maximum=500,
+        meaning="Side of the square plan; tolerances of folding and mesh are made for buildings.",
+    )  # fmt: skip
     height: float = setting(
         10, unit="m", above=0, maximum=500,
         meaning="Rise of the paraboloid or arch, total range of z of the hypar.",

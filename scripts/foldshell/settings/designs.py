@@ -10,6 +10,7 @@ from foldshell.files.errors import InputError
 from foldshell.files.meshes.read import FORMATS, is_mesh_file
 from foldshell.settings.check import Reader, parse_text
 from foldshell.settings.config_file import read_text
+from foldshell.settings.consistency import check_thickness
 from foldshell.settings.design import COLUMNS, SURFACES, Design, DesignColumns
 from foldshell.settings.field import list_settings
 from foldshell.settings.nearest import hint_nearest
@@ -122,6 +123,7 @@ def _make_design(
     design = Design(name=cells["design"], tags=tuple(words), **columns)
     _check_surface(design.surface, where)
     _check_edge_beam(design, where)
+    check_thickness(design, settings.sizing, where)
     if design.panels > settings.limits.panels_max:
         raise InputError(
             f"{where}: zigzag x strip: {design.zigzag} x {design.strip} lines are "

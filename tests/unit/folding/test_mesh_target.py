@@ -56,7 +56,7 @@ def test_distances_are_those_of_the_surface(tmp_path):
 
 @pytest.mark.parametrize("name", SHAPES)
 def test_sheets_follow_free_forms(tmp_path, name):
-    """rms <= 1e-3 span in paper mode; constraints 1e-9 in exact mode."""
+    """rms <= 1e-3 span in elastic mode; constraints 1e-9 in exact mode."""
     write_surface(tmp_path / name, SHAPES[name])
     _assert_followed(tmp_path / name, 15, 16)
 

@@ -17,10 +17,10 @@ HEADER = "\t".join(COLUMNS)
 GOOD = "a\tmiura\tarch\t28\t10\t15\t16\tstrip\telastic\t0.5\t0.15\tx,y"
 
 
-def read(tmp_path, text: str | bytes):
+def read(tmp_path, text: str | bytes, settings=SETTINGS):
     path = tmp_path / "designs.tsv"
     path.write_bytes(text if isinstance(text, bytes) else text.encode())
-    return read_designs(path, SETTINGS)
+    return read_designs(path, settings)
 
 
 @pytest.fixture(scope="module")
@@ -191,8 +191,9 @@ def cell(column: str, value: str) -> str:
         (cell("span_m", "nan"), "span_m"),
         (cell("span_m", "inf"), "span_m"),
         (cell("span_m", "1e99"), "at most 500"),
-        (cell("span_m", "0"), "above 0"),
-        (cell("span_m", "-28"), "above 0"),
+        (cell("span_m", "0"), "at least 0.1"),
+        (cell("span_m", "-28"), "at least 0.1"),
+        (cell("span_m", "1e-9"), "at least 0.1 and of at most 500"),
         (cell("span_m", "28000"), "at most 500"),
         (cell("span_m", "true"), "span_m"),
         (cell("height_m", "-0.0"), "above 0"),
@@ -234,3 +235,26 @@ def test_unknown_tag_names_the_nearest(designs):
 def test_name_pattern_serves_as_a_wildcard_constraint():
     assert NAME.fullmatch("paraboloid-28-10-15x16-all")
     assert not NAME.fullmatch("a/b") and not NAME.fullmatch("a\n")
+
+
+@pytest.mark.parametrize(
+    ("sizing", "row", "named"),
+    [
+        ({}, "1\t15\t16", "panels of 66.67 mm in plan: a sizing.start_thickness_mm below that"),
+        ({"start_thickness_mm": 10000, "largest_thickness_mm": 10000}, "5\t15\t16", "it is 10000"),
+        ({}, "0.5\t9\t3", "makes panels of 62.5 mm"),
+        ({"start_thickness_mm": 334, "least_thickness_mm": 334}, "5\t15\t16", "333.3 mm"),
+    ],
+)
+def test_panels_thicker_than_wide_are_refused(tmp_path, sizing, row, named):
+    """Before any job: the loop would begin with, or have to end in, blocks."""
+    settings = make_settings({"sizing": sizing})
+    with pytest.raises(InputError, match=named) as caught:
+        read(tmp_path, f"design\tspan_m\tzigzag\tstrip\nblock\t{row}\n", settings)
+    assert "line 2: design 'block': span_m" in str(caught.value)
+
+
+def test_panels_a_little_wider_than_thick_are_read(tmp_path):
+    """A warning of the final state, not a refusal: design 5/2 of Table 1 starts at half of it."""
+    settings = make_settings({"sizing": {"start_thickness_mm": 333, "least_thickness_mm": 40}})
+    assert read(tmp_path, "design\tspan_m\tzigzag\tstrip\na\t5\t15\t16\n", settings)

@@ -156,7 +156,7 @@ def test_combinations_are_those_of_the_paper():
         ("material.criterion", False, "one of von_mises, rankine"),
         ("pattern.sector_angle_deg", 0, "above 0"),
         ("pattern.sector_angle_deg", 90, "below 90"),
-        ("defaults.span_m", -28, "above 0"),
+        ("defaults.span_m", -28, "at least 0.1"),
         ("defaults.zigzag", 2, "at least 3"),
         ("defaults.zigzag", 15.5, "whole number"),
         ("defaults.support", "al", "the nearest is all"),
