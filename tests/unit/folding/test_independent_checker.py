@@ -15,7 +15,7 @@ from foldshell.folding.targets import make_target
 from foldshell.pattern.design import design_sheet
 from foldshell.settings.fold import Fold
 
-MODES = ("paper", "isometric", "exact", "rigid")
+MODES = ("elastic", "isometric", "exact", "rigid")
 QUADRICS = {  # z = c + p x2 + q y2 + r x y, in heights and half spans
     "paraboloid": (1.0, -0.5, -0.5, 0.0),
     "hypar": (0.5, 0.5, -0.5, 0.0),
