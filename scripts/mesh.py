@@ -1,13 +1,11 @@
 """Rule mesh: the shell mesh of a folded sheet with its supports."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from foldshell.engine.job import run_job
 from foldshell.files.errors import InputError
 from foldshell.files.whole import read_arrays
-from foldshell.folding.intersections import find_piercing
 from foldshell.shell.edge_beams import make_edge_beam
 from foldshell.shell.mesh_files import (
     mesh_folded_sheet,
@@ -15,6 +13,7 @@ from foldshell.shell.mesh_files import (
     write_mesh,
     write_mesh_vtu,
 )
+from foldshell.shell.piercing import refuse_piercing
 
 
 def main(
@@ -38,19 +37,9 @@ def main(
     except ValueError as error:
         raise InputError(f"design {design}: mesh: {error}") from None
     if beam:
-        _check_edge_beam(arrays, len(folded["facets"]), design)
+        refuse_piercing(arrays, len(folded["facets"]), design)
     write_mesh(mesh_path, arrays)
     write_mesh_vtu(vtu_path, mesh_from_arrays(arrays), arrays)
-
-
-def _check_edge_beam(arrays: Mapping[str, Any], sheet: int, design: str) -> None:
-    place = find_piercing(arrays["vertices"], arrays["facets"], sheet)
-    if place is not None:
-        raise InputError(
-            f"design {design}: edge_beam_depth_m: a panel pierces the sheet near "
-            f"{place.round(2).tolist()} m: an edge beam clear of it is allowed, such as one of the "
-            "other sign, which stands on the other side of the border"
-        )
 
 
 if "snakemake" in globals():

@@ -5,18 +5,11 @@ from pathlib import Path
 
 from foldshell.engine.job import run_job
 from foldshell.files.whole import atomic_path, write_json
-from foldshell.records.analysis import read_analysis
-from foldshell.records.comparison import read_comparison
-from foldshell.records.files import read_record
-from foldshell.records.mesh_convergence import MeshConvergenceRecord
-from foldshell.report.checks import list_checks, read_engineering
 from foldshell.report.markup import render
 from foldshell.report.page import shrink_picture
-from foldshell.report.sheet import SheetFiles, find_marks, make_sheet
+from foldshell.report.sheet import find_marks, make_sheet
+from foldshell.report.sheet_files import read_sheet
 from foldshell.report.sketch import draw_sketch
-from foldshell.results.design_view import view_design
-from foldshell.results.reactions import find_reactions
-from foldshell.results.state import read_state
 from foldshell.settings.analysed import ANALYSED
 from foldshell.settings.design import Design
 from foldshell.settings.stage import Plain, read_stage
@@ -39,16 +32,9 @@ def main(
     utilization (png); `design` is a row of designs.tsv, `settings` those of stage `size`.
     """
     one, given = Design.from_row(design), read_stage(settings, *ANALYSED)
-    state_paths = [paths[key] for key in ("mesh", "folded", "arrays", "final")]
-    state = read_state(one.name, *state_paths, given.combinations)
-    view = view_design(state, given, one.span, one.pattern)
-    final = read_analysis(paths["final"])
-    convergence = read_record(paths["mesh_convergence"], MeshConvergenceRecord)
-    checks = list_checks(final, read_engineering(Path(paths["final"]).parents[1]))
-    comparison, reactions = read_comparison(paths["comparison"]), find_reactions(state, given)
-    files = SheetFiles(one, final, comparison, convergence, checks, reactions)
+    files, view = read_sheet(paths, one, given)
     sheet = make_sheet(files, view, given, settings_hash(settings))
-    sketch = draw_sketch(view, find_marks(view, final))
+    sketch = draw_sketch(view, find_marks(view, files.final))
     picture = shrink_picture(paths["utilization"], PICTURE_WIDTH)
     page = render("sheet.html", title=sheet["title"], sheet=sheet, sketch=sketch, picture=picture)
     with atomic_path(html_path) as temporary:
