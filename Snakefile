@@ -66,6 +66,7 @@ include: "rules/deliver.smk"
 include: "rules/manifest.smk"
 include: "rules/figures.smk"
 include: "rules/report.smk"
+include: "rules/archive.smk"
 
 
 for TAG in sorted({tag for design in DESIGNS for tag in design.tags}):

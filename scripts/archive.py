@@ -5,11 +5,13 @@ from datetime import UTC, datetime
 from pathlib import Path
 from typing import Any
 
-from foldshell.archive.bag import ArchiveOptions, write_archive
+from foldshell.archive.bag import write_archive
 from foldshell.archive.content import Study
 from foldshell.engine.job import run_job
 from foldshell.files.manifest import read_manifest
 from foldshell.files.whole import hash_data, hash_file, write_json
+from foldshell.settings.archive import Archive
+from foldshell.settings.stage import read_stage
 
 
 def main(
@@ -21,8 +23,7 @@ def main(
     project: str | Path,
     config: Mapping[str, Any],
     tables: Sequence[str | Path],
-    fields: bool = True,
-    dirty: str = "refuse",
+    settings: Mapping[str, Any],
 ) -> None:
     """Write `<tag>-<first 8 of the result's hash>.zip`, then archive.json, which names it."""
     folder = Path(pointer_path).parent
@@ -31,7 +32,7 @@ def main(
     study = Study(tag, tuple(designs), Path(results), folder.parent, Path(project))
     path = folder / f"{tag}-{result[:8]}.zip"
     date = datetime.now(UTC).date().isoformat()
-    options = ArchiveOptions(fields, dirty)
+    options = read_stage(settings, Archive).archive
     write_archive(path, study, config, [Path(table) for table in tables], result, date, options)
     about = {"file": path.name, "sha256": hash_file(path), "bytes": path.stat().st_size}
     write_json(pointer_path, {**about, "result_sha256": result})

@@ -1,11 +1,11 @@
 """Put a study into a bag, and the bag into one file."""
 
 import json
+import os
 import shutil
 import tempfile
 import zipfile
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -25,21 +25,15 @@ from foldshell.archive.content import (
 )
 from foldshell.archive.crate import CrateContent, make_metadata
 from foldshell.archive.machine import describe_machine
+from foldshell.archive.seal import DIGITS, SEAL, hash_before_seal
 from foldshell.archive.words import describe_archive
 from foldshell.files.errors import InputError
 from foldshell.files.job_record import FOLDER, read_records
 from foldshell.files.whole import atomic_path
+from foldshell.settings.archive import Archive
 
 TEXTS = (".log", ".tsv", ".txt")
 EPOCH = (1980, 1, 1, 0, 0, 0)
-
-
-@dataclass(frozen=True)
-class ArchiveOptions:
-    """What goes in: fields of all iterations or none, and what is done about a dirty tree."""
-
-    fields: bool = True
-    dirty: str = "refuse"
 
 
 def write_archive(
@@ -49,7 +43,7 @@ def write_archive(
     tables: Sequence[Path],
     result_sha256: str,
     date: str,
-    options: ArchiveOptions,
+    options: Archive,
 ) -> None:
     """Write the archive of a study as one zip file.
 
@@ -83,7 +77,7 @@ def write_archive(
             zip_folder(bag, temporary)
 
 
-def _copy_code(study: Study, bag: Path, options: ArchiveOptions) -> tuple[str, str]:
+def _copy_code(study: Study, bag: Path, options: Archive) -> tuple[str, str]:
     (bag / CODE).mkdir()
     return export_code(study.project, bag / CODE, options.dirty)
 
@@ -97,7 +91,7 @@ def _copy_config(bag: Path, config: Mapping[str, Any], tables: Sequence[Path]) -
         shutil.copyfile(table, folder / Path(table).name)
 
 
-def _copy_results(study: Study, bag: Path, options: ArchiveOptions) -> None:
+def _copy_results(study: Study, bag: Path, options: Archive) -> None:
     words = private_words(study.project)
     if not options.fields:
         every = {place for _, place in list_results(study, True)}
@@ -158,8 +152,17 @@ def _write_json(path: Path, data: object) -> None:
 
 
 def zip_folder(folder: Path, path: Path) -> None:
-    """Write a folder as a zip whose bytes depend on names and contents alone."""
+    """Write a folder as a zip whose bytes depend on names and contents alone.
+
+    Its comment ends with the SHA-256 of all bytes before: the hashes of a bag do not reach what a
+    zip holds besides the files.
+    """
     with zipfile.ZipFile(path, "w", zipfile.ZIP_DEFLATED, compresslevel=6) as archive:
+        archive.comment = SEAL + bytes(DIGITS)
         for file in sorted(item for item in folder.rglob("*") if item.is_file()):
             place = f"{folder.name}/{file.relative_to(folder).as_posix()}"
             archive.writestr(zipfile.ZipInfo(place, EPOCH), file.read_bytes(), zipfile.ZIP_DEFLATED)
+    with open(path, "r+b") as stream:
+        digest = hash_before_seal(stream)
+        stream.seek(-DIGITS, os.SEEK_END)
+        stream.write(digest.encode())

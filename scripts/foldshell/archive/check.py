@@ -13,6 +13,7 @@ import jsonschema
 import numpy as np
 
 from foldshell.archive.content import LEFT_OUT, RESULTS
+from foldshell.archive.seal import is_sealed
 from foldshell.files.errors import InputError
 from foldshell.records.catalogue import FILES, ResultFile
 
@@ -33,6 +34,8 @@ def unpack(path: str | Path, folder: str | Path) -> Path:
         for a file that is no archive of ours, or leads outside of the folder.
     """
     try:
+        if not is_sealed(path):
+            raise InputError(f"{path}: damaged: its bytes are not those that were sealed")
         with zipfile.ZipFile(path) as archive:
             names = archive.namelist()
             total = sum(info.file_size for info in archive.infolist())
@@ -50,7 +53,11 @@ def check_bag(bag: Path) -> Iterator[str]:
     """Yield what is wrong with the bag: files added, missing or changed."""
     logging.getLogger("bagit").setLevel(logging.CRITICAL)
     try:
-        bagit.Bag(str(bag)).validate()
+        opened = bagit.Bag(str(bag))
+        missing, added = opened.compare_manifests_with_fs()
+        yield from (f"{name}: missing" for name in missing)
+        yield from (f"{name}: is not in the manifest of the bag" for name in added)
+        opened.validate()
     except bagit.BagValidationError as error:
         yield from (str(detail) for detail in error.details) if error.details else [str(error)]
     except bagit.BagError as error:

@@ -1,12 +1,8 @@
 """The data descriptor of an archive: what is what, units, licence, how to check and rerun."""
 
-from typing import TYPE_CHECKING
-
 from foldshell.archive.content import Study
 from foldshell.records.catalogue import FILES
-
-if TYPE_CHECKING:
-    from foldshell.archive.bag import ArchiveOptions
+from foldshell.settings.archive import Archive
 
 PAGE = """# Study {tag}
 
@@ -51,7 +47,7 @@ python3.11 -m venv .venv && .venv/bin/pip install --require-hashes -r envs/requi
 
 
 def describe_archive(
-    study: Study, commit: str, result_sha256: str, options: "ArchiveOptions", table: str
+    study: Study, commit: str, result_sha256: str, options: Archive, table: str
 ) -> str:
     """Return README.md of an archive; `table` names the table of designs in `config/`."""
     rows = "\n".join(f"| `results/{file.path}` | {file.meaning} |" for file in FILES)

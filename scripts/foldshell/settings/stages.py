@@ -6,6 +6,7 @@ from typing import Any
 from foldshell.files.whole import hash_data
 from foldshell.settings.analysed import ANALYSED, LOADED
 from foldshell.settings.analysis import Analysis
+from foldshell.settings.archive import Archive
 from foldshell.settings.crosscheck import Crosscheck
 from foldshell.settings.design import Design
 from foldshell.settings.exports import Drawings, Exports
@@ -27,6 +28,7 @@ STAGES: dict[str, tuple[type, ...]] = {
     "figures": (Figures,),
     "drawings": (Drawings,),
     "exports": (Exports,),
+    "archive": (Archive,),
     "study": (Pattern, Fold, *ANALYSED, Crosscheck),
 }
 """Groups that each stage takes; a setting with `stages` of its own goes to those alone."""

@@ -1,6 +1,7 @@
 """Every setting of a study, group by group, and the small groups."""
 
 from foldshell.settings.analysis import Analysis
+from foldshell.settings.archive import Archive
 from foldshell.settings.crosscheck import Crosscheck
 from foldshell.settings.design import DesignColumns
 from foldshell.settings.exports import Drawings, Exports
@@ -70,3 +71,4 @@ class Settings(Group):
     figures: Figures
     drawings: Drawings
     exports: Exports
+    archive: Archive

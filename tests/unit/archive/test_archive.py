@@ -1,0 +1,179 @@
+"""An archive holds what made a study, names nobody, and tells of every changed bit."""
+
+import json
+import random
+import shutil
+import subprocess
+import zipfile
+
+import numpy as np
+import pytest
+
+bagit = pytest.importorskip("bagit", reason="envs/archive.lock is not installed")
+pytest.importorskip("rocrate", reason="envs/archive.lock is not installed")
+
+import verify  # noqa: E402
+from foldshell.archive.bag import write_archive  # noqa: E402
+from foldshell.archive.check import check_bag, check_sums, unpack  # noqa: E402
+from foldshell.archive.content import Study, clean_text  # noqa: E402
+from foldshell.archive.edits import find_edits  # noqa: E402
+from foldshell.archive.recompute import compare_design  # noqa: E402
+from foldshell.archive.seal import is_sealed  # noqa: E402
+from foldshell.files.errors import InputError  # noqa: E402
+from foldshell.files.job_record import read_records  # noqa: E402
+from foldshell.files.whole import write_arrays, write_json  # noqa: E402
+from foldshell.settings.archive import Archive  # noqa: E402
+from results_case import make_results, record  # noqa: E402
+from workbook_cases import edit_with_openpyxl  # noqa: E402
+
+DATE = "2026-01-02"
+
+
+def git(folder, *words):
+    name = ["-c", "user.name=t", "-c", "user.email=t@t"]
+    subprocess.run(["git", "-C", str(folder), *name, *words], check=True, capture_output=True)
+
+
+@pytest.fixture
+def study(tmp_path):
+    """Two designs, in the checkout of a small project."""
+    project = tmp_path / "project"
+    (project / "scripts").mkdir(parents=True)
+    for name in ("Snakefile", "LICENSE", "CITATION.cff", "scripts/analyse.py", "scripts/size.py"):
+        (project / name).write_text(f"# {name}\n")
+    (project / "designs.tsv").write_text("design\na\nb\n")
+    (project / ".gitignore").write_text("results/\n")
+    git(project, "init", "-q")
+    git(project, "add", "-A")
+    git(project, "commit", "-qm", "first")
+    results = make_results(project / "results")
+    return Study("t", ("a", "b"), results, results / "studies/t", project)
+
+
+def write(study, path, **options):
+    tables = [study.project / "designs.tsv"]
+    write_archive(path, study, {"study": "t"}, tables, "ab" * 32, DATE, Archive(**options))
+    return path
+
+
+def test_an_archive_checks_out_on_its_own(study, tmp_path):
+    path = write(study, tmp_path / "t.zip")
+    shutil.rmtree(study.project)
+    said, code = verify.verify_archive(path)
+    assert code == 0 and "every sum closes" in said[0]
+    assert is_sealed(path)
+
+
+def test_the_same_results_give_the_same_bytes(study, tmp_path):
+    one, other = (write(study, tmp_path / folder / "t.zip") for folder in "xy")
+    assert one.read_bytes() == other.read_bytes()
+
+
+def test_any_flipped_bit_is_found(study, tmp_path):
+    """Also one in what a zip holds besides the files, such as its dates."""
+    path = write(study, tmp_path / "t.zip")
+    data, chance = path.read_bytes(), random.Random(3)
+    places = [chance.randrange(8 * len(data)) for _ in range(60)]
+    for place in [*places, 0, 8 * len(data) - 1, 8 * (len(data) - 64), 8 * 10]:
+        spoilt = bytearray(data)
+        spoilt[place // 8] ^= 1 << place % 8
+        path.write_bytes(spoilt)
+        with pytest.raises(InputError, match="damaged"):
+            verify.verify_archive(path)
+
+
+def test_a_bag_that_was_packed_again_after_a_change_is_found(study, tmp_path):
+    """By the hashes of the bag, the manifests of designs and their own hash."""
+    bag = unpack(write(study, tmp_path / "t.zip"), tmp_path / "out")
+    target = bag / "data/results/a/history.json"
+    target.write_text(target.read_text().replace("2", "3"))
+    assert any("history.json" in line for line in check_bag(bag))
+    (bag / "data/results/a/page.html").unlink()
+    assert any("page.html" in line for line in check_bag(bag))
+
+
+def test_without_fields_the_last_state_stays(study, tmp_path):
+    path = write(study, tmp_path / "t.zip", fields=False)
+    with zipfile.ZipFile(path) as archive:
+        names = archive.namelist()
+    assert not any(name.endswith("sizing/00/analysis.npz") for name in names)
+    assert verify.verify_archive(path)[1] == 0
+
+
+def test_a_dirty_tree_is_refused_or_said(study, tmp_path):
+    (study.project / "Snakefile").write_text("# other\n")
+    with pytest.raises(InputError, match=r"Snakefile differs from commit"):
+        write(study, tmp_path / "t.zip")
+    assert not (tmp_path / "t.zip").exists()
+    with zipfile.ZipFile(write(study, tmp_path / "t.zip", dirty="diff")) as archive:
+        assert b"+# other" in archive.read("t/data/difference.patch")
+        assert archive.read("t/data/code/Snakefile") == b"# Snakefile\n"
+
+
+def test_results_that_name_the_machine_are_refused(study, tmp_path):
+    page = study.results / "a/page.html"
+    page.write_text(f"<p>{study.project}</p>")
+    with pytest.raises(InputError, match=r"page.html: .*names this machine"):
+        write(study, tmp_path / "t.zip")
+
+
+def test_logs_lose_paths_of_the_machine(study):
+    text = clean_text("read /home/someone/project/config/x.tsv\n", ["/home/someone/project"])
+    assert text == "read config/x.tsv\n"
+
+
+def test_provenance_has_an_action_for_each_job_and_each_edit(study, tmp_path):
+    home, book = study.results / "a", study.results / "a/sizing/00/thickness.xlsx"
+    edit_with_openpyxl(book, lambda workbook: workbook["thickness"].__setitem__("D5", 0.25))
+    made = ["sizing/00/analysis.json", "sizing/00/analysis.npz"]
+    record(home, "analyse-00", "analyse", made, ["sizing/00/thickness.xlsx"])
+    (edit,) = find_edits(read_records(home))
+    assert edit.path == "sizing/00/thickness.xlsx" and edit.reader == "analyse-00"
+    with zipfile.ZipFile(write(study, tmp_path / "t.zip")) as archive:
+        graph = json.loads(archive.read("t/data/ro-crate-metadata.json"))["@graph"]
+    entities = {item["@id"]: item for item in graph}
+    action = entities["#job-a-analyse-01"]
+    assert action["instrument"]["@id"] == "code/scripts/analyse.py"
+    assert {"@id": "results/a/sizing/01/thickness.xlsx"} in action["object"]
+    assert {"@id": "results/a/sizing/01/analysis.json"} in action["result"]
+    (update,) = (item for item in graph if item["@type"] == "UpdateAction")
+    assert edit.written_sha256 in update["description"]
+    jobs = [item for item in graph if item["@id"].startswith("#job-")]
+    controls = [item for item in graph if item["@type"] == "ControlAction"]
+    assert len(jobs) == len(controls) == 2 * 6 + 1
+
+
+def test_sums_that_do_not_close_are_said(tmp_path):
+    """Two unit triangles of one panel, 0.1 m thick: 1 m2 and 0.1 m3."""
+    home = tmp_path / "a"
+    vertices = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0]], float)
+    facets, panel = np.array([[0, 1, 2], [0, 2, 3]]), np.zeros(2, int)
+    mesh = {"vertices": vertices, "facets": facets, "facet_panel": panel}
+    write_arrays(home / "shell/mesh.npz", mesh)
+    write_arrays(home / "sizing/final.npz", {"thickness": np.array([0.1])})
+    final = {"volume_m3": 0.1, "area_m2": 1.0, "reaction_imbalance": 1e-9}
+    write_json(home / "sizing/final.json", final)
+    assert list(check_sums(tmp_path)) == []
+    for key, value in (("volume_m3", 0.1001), ("area_m2", 1.0001), ("reaction_imbalance", 1e-5)):
+        write_json(home / "sizing/final.json", final | {key: value})
+        assert len(list(check_sums(tmp_path))) == 1
+
+
+@pytest.mark.parametrize(("change", "passed"), [(0.0, True), (1e-12, True), (1e-6, False)])
+def test_digits_of_a_design_computed_anew(tmp_path, change, passed):
+    for name, value in (("one", 1.0), ("other", 1.0 + change)):
+        home = tmp_path / name
+        write_arrays(home / "folded/folded.npz", {"vertices": np.array([value])})
+        write_arrays(home / "sizing/final.npz", {"thickness": np.array([0.1])})
+        write_json(home / "sizing/final.json", {"verdict": "converged", "volume_m3": 0.1 * value})
+    found = compare_design(tmp_path / "one", tmp_path / "other")
+    assert all(item.passed for item in found) is passed
+    assert found[0].same_bytes is (change == 0)
+
+
+def test_a_file_that_is_no_archive_is_one_sentence(tmp_path):
+    path = tmp_path / "x.zip"
+    for data in (b"", b"PK", b"no zip at all" * 20):
+        path.write_bytes(data)
+        with pytest.raises(InputError, match=r"x.zip: damaged"):
+            verify.verify_archive(path)
