@@ -8,7 +8,7 @@ from foldshell.settings.designs import select_designs
 from foldshell.engine.imports import write_content_list, write_library_list
 from foldshell.files.package_data import library_folder
 from foldshell.records.catalogue import FILES
-from foldshell.settings.stages import choose_subdivisions, settings_hash, stage_parameters
+from foldshell.settings.stages import choose_subdivisions, hash_decisions, stage_parameters
 
 BY_NAME = {design.name: design for design in DESIGNS}
 SECTOR_ANGLE_DEG = round(math.degrees(SETTINGS.pattern.sector_angle), 10)
@@ -76,9 +76,15 @@ def subdivisions(wildcards):
     return choose_subdivisions(SETTINGS, BY_NAME[wildcards.design])
 
 
-def settings_hash_of(stage):
-    """Return a function of the wildcards that gives the hash of a stage's settings."""
-    return lambda wildcards: settings_hash(of_stage(stage)(wildcards))
+@functools.cache
+def hash_of_design(name):
+    """Return the hash of all that decides a design before any thickness is edited."""
+    return hash_decisions(SETTINGS, BY_NAME[name])
+
+
+def decisions(wildcards):
+    """Return the same for the design of a job."""
+    return hash_of_design(wildcards.design)
 
 
 def names_of_tag(tag):

@@ -47,7 +47,6 @@ rule size:
     params:
         design=lambda wildcards: BY_NAME[wildcards.design].to_row(),
         settings=of_stage("size"),
-        settings_hash=settings_hash_of("size"),
     message:
         "{wildcards.design}: history and final state"
     script:

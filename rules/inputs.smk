@@ -31,11 +31,8 @@ def summary_inputs(tag):
 
 
 def summary_rows(tag):
-    """Return the rows of designs.tsv that a summary lists, with their subdivisions."""
-    return [
-        BY_NAME[name].to_row() | {"mesh_subdivisions": choose_subdivisions(SETTINGS, BY_NAME[name])}
-        for name in names_of_tag(tag)
-    ]
+    """Return the rows of designs.tsv that a summary lists."""
+    return [BY_NAME[name].to_row() for name in names_of_tag(tag)]
 
 
 def layout_of(name):

@@ -18,7 +18,7 @@ rule start:
     params:
         **of_design("zigzag", "strip"),
         settings=of_stage("start"),
-        settings_hash=settings_hash_of("start"),
+        settings_hash=decisions,
     message:
         "{wildcards.design}: start thickness"
     script:
@@ -43,6 +43,7 @@ checkpoint analyse:
     params:
         **of_design("span_m", "zigzag", "strip"),
         settings=of_stage("analyse"),
+        settings_hash=decisions,
     message:
         "{wildcards.design}: analysis {wildcards.iteration}"
     script:
@@ -69,7 +70,6 @@ rule resize:
     params:
         **of_design("zigzag", "strip"),
         settings=of_stage("resize"),
-        settings_hash=settings_hash_of("resize"),
     message:
         "{wildcards.design}: thickness {wildcards.iteration}"
     script:

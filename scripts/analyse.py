@@ -5,8 +5,8 @@ from pathlib import Path
 
 from foldshell.engine.job import run_job
 from foldshell.engine.progress import describe_iteration
-from foldshell.files.edits import keep_edited
-from foldshell.files.whole import hash_file, read_arrays, read_json, write_arrays, write_timed_json
+from foldshell.files.edits import describe_reading, keep_edited
+from foldshell.files.whole import read_arrays, read_json, write_arrays, write_timed_json
 from foldshell.settings.analysed import ANALYSED
 from foldshell.settings.stage import Plain, read_stage
 from foldshell.sizing.case import open_case
@@ -27,19 +27,20 @@ def main(
     zigzag: int,
     strip: int,
     settings: Plain,
+    settings_hash: str,
     previous: tuple[str, str] | None = None,
 ) -> None:
     """Write analysis.npz, then analysis.json; `previous` names those of the iteration before."""
     given = read_stage(settings, *ANALYSED)
-    edited = keep_edited(workbook_path)
+    keep_edited(workbook_path)
     grid = make_panel_grid(zigzag, strip)
     bounds = given.sizing.least_thickness, given.sizing.largest_thickness
     thickness = read_thickness(workbook_path, grid, *bounds)
     before = (read_json(previous[0]), read_arrays(previous[1])) if previous else ({}, {})
     task = IterationTask(iteration, span_m, thickness, *before)
     report, fields = open_case(mesh_path, given).run(task)
-    report["edited"] = edited
-    report["workbook_sha256"] = hash_file(workbook_path)
+    decided = before[0].get("settings_hash", settings_hash)
+    report |= describe_reading(workbook_path, thickness, decided)
     write_arrays(arrays_path, fields)
     write_timed_json(json_path, report)
     # One write a line, so that lines of parallel jobs do not mix.

@@ -9,7 +9,6 @@ from foldshell.engine.job import run_job
 from foldshell.files.whole import atomic_path
 from foldshell.report.provenance import find_provenance
 from foldshell.report.study_report import read_study, write_study_report
-from foldshell.settings.stages import settings_hash
 
 
 def main(
@@ -40,8 +39,7 @@ def main(
         study, paths["summary"], results, paths["tiles"], figures, paths.get("claims"), text
     )
     way = Path(os.path.relpath(results, Path(report).parent)).as_posix()
-    digest = settings_hash(settings)
-    page = write_study_report(files, settings, digest, find_provenance(project), way, left_out)
+    page = write_study_report(files, settings, find_provenance(project), way, left_out)
     with atomic_path(report) as temporary:
         temporary.write_text(page, encoding="utf-8")
 

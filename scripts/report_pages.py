@@ -9,11 +9,12 @@ from typing import Any
 from foldshell.engine.job import run_job
 from foldshell.files.whole import atomic_path
 from foldshell.report.study_pages import (
+    read_rows,
     write_markdown_page,
     write_settings_page,
     write_summary_page,
 )
-from foldshell.settings.stages import settings_hash
+from foldshell.results.summary import hash_study
 
 PACKAGES = ("snakemake", "numpy", "scipy", "vtk", "meshio", "XlsxWriter", "openpyxl", "Pillow",
             "matplotlib")  # fmt: skip
@@ -31,7 +32,7 @@ def main(
     written = {
         "summary": write_summary_page(summary),
         "verification": write_markdown_page("Verification", text),
-        "settings": write_settings_page(settings, settings_hash(settings), versions),
+        "settings": write_settings_page(settings, hash_study(read_rows(summary)), versions),
     }
     for name, page in written.items():
         with atomic_path(pages[name]) as temporary:

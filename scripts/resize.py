@@ -25,7 +25,6 @@ def main(
     zigzag: int,
     strip: int,
     settings: Plain,
-    settings_hash: str,
     previous_memory: str | Path | None = None,
 ) -> None:
     """Write thickness.xlsx, memory.npz and written.json of the iteration after `json_path`."""
@@ -38,9 +37,9 @@ def main(
     table = ThicknessTable(
         make_panel_grid(zigzag, strip), new, thickness, used, new / thickness - 1, following.note
     )
-    summary = summarise_step(design, analysis, sizing) | {"settings_hash": settings_hash}
+    summary = summarise_step(design, analysis, sizing)
     write_arrays(memory_path, following.memory)
-    with recorded_workbook(workbook_path, record_path) as temporary:
+    with recorded_workbook(workbook_path, record_path, new) as temporary:
         write_thickness(temporary, table, summary, *(getattr(sizing, name) for name in LIMITS))
 
 

@@ -28,7 +28,6 @@ def main(
     *,
     design: Plain,
     settings: Plain,
-    settings_hash: str,
 ) -> None:
     """Write history.csv, history.xlsx, design.xlsx and copies of the last analysis, from that and
     classes.json, classes.npz. Iterations left behind the last one are removed; edited workbooks
@@ -37,7 +36,7 @@ def main(
     iterations = gather_iterations(json_paths, one, given.sizing)
     versions = list_versions(PACKAGES)
     more = versions, read_json(classes_paths[0]), read_arrays(classes_paths[1])["panel_class"]
-    report = make_design_report(iterations, one, given, settings_hash, *more)
+    report = make_design_report(iterations, one, given, *more)
     write_history_csv(csv_path, iterations.history)
     write_history(history_path, iterations.history, report.verdict, report.utilization_max)
     write_design(design_path, report)

@@ -35,7 +35,7 @@ def main(
         "largest_thickness_m": largest,
         "settings_hash": settings_hash,
     }
-    with recorded_workbook(workbook_path, record_path) as temporary:
+    with recorded_workbook(workbook_path, record_path, table.thickness) as temporary:
         write_thickness(temporary, table, summary, least, largest)
 
 

@@ -6,8 +6,7 @@ from typing import Any
 
 from foldshell.engine.job import run_job
 from foldshell.files.errors import InputError
-from foldshell.results.summary import SUMMARY_KEYS, make_summary_row
-from foldshell.settings.stages import settings_hash
+from foldshell.results.summary import SUMMARY_KEYS, hash_study, make_summary_row
 from foldshell.workbook.summary import write_summary
 from foldshell.workbook.tables import write_csv
 
@@ -21,16 +20,15 @@ def main(
 ) -> None:
     """Write both summaries of the designs, in their order.
 
-    `designs` holds the columns of designs.tsv and `mesh_subdivisions`, `results` is the folder
+    `designs` holds the columns of designs.tsv, `results` is the folder
     with one folder per design, and `settings` are the plain parameters of the stage `study`.
     """
     if not designs:
         raise InputError("summary: designs: none given: at least one is due")
-    digest = settings_hash(settings)
-    rows = [make_summary_row(row, Path(results) / row["design"], digest) for row in designs]
+    rows = [make_summary_row(row, Path(results) / row["design"]) for row in designs]
     limit = settings["sizing"]["utilization_max"]
     write_csv(csv, SUMMARY_KEYS, rows)
-    write_summary(xlsx, SUMMARY_KEYS, rows, {**settings, "settings_hash": digest}, limit)
+    write_summary(xlsx, SUMMARY_KEYS, rows, {**settings, "study_hash": hash_study(rows)}, limit)
 
 
 if "snakemake" in globals():

@@ -36,7 +36,7 @@ def _analyse(mesh, book, iteration=0, previous=None, **sizing):
     analyse.main(
         mesh, book, *files, design="small", iteration=iteration, span_m=SPAN, zigzag=ZIGZAG,
         strip=STRIP,
-        settings=stage("analyse", **sizing), previous=previous,
+        settings=stage("analyse", **sizing), settings_hash="base", previous=previous,
     )  # fmt: skip
     return read_json(files[0]), read_arrays(files[1])
 

@@ -54,12 +54,12 @@ def folder(tmp_path_factory):
     files = here / "analysis.json", here / "analysis.npz"
     analyse.main(
         shell, here / "thickness.xlsx", *files, design="small", iteration=0, span_m=SPAN, **PLACE,
-        settings=stage("analyse", iterations_max=0),
+        settings=stage("analyse", iterations_max=0), settings_hash="base",
     )  # fmt: skip
     after = loop / "01"
     resize.main(
         *files, after / "thickness.xlsx", after / "memory.npz", after / "written.json",
-        design="small", **PLACE, settings=stage("resize"), settings_hash="",
+        design="small", **PLACE, settings=stage("resize"),
     )  # fmt: skip
     new = read_thickness(after / "thickness.xlsx", make_panel_grid(ZIGZAG, STRIP), 0.04, 1.0)
     assert new.shape == (PANELS,)
@@ -69,7 +69,6 @@ def folder(tmp_path_factory):
     size.main(
         [files[0]], classes, loop / "history.csv", loop / "history.xlsx", folder / "design.xlsx",
         loop / "final.json", loop / "final.npz", design=DESIGN | SIZES, settings=stage("size"),
-        settings_hash="0" * 12,
     )  # fmt: skip
     return folder
 
@@ -109,10 +108,10 @@ def test_workbooks_and_summary_show_the_edge_beam(folder):
     assert words["edge beam depth"] == BEAM[0]
     assert words["edge beam utilization max"] == pytest.approx(report["edge_beam_utilization_max"])
     assert len(list(book["panels"].iter_rows())) == 2 + PANELS
-    line = make_summary_row(DESIGN | SIZES, folder, "")
+    line = make_summary_row(DESIGN | SIZES, folder)
     assert line["edge_beam_depth_m"] == BEAM[0]
     assert line["edge_beam_utilization_max"] == report["edge_beam_utilization_max"]
-    plain = make_summary_row(DESIGN | dict.fromkeys(SIZES, 0.0), folder, "")
+    plain = make_summary_row(DESIGN | dict.fromkeys(SIZES, 0.0), folder)
     assert plain["edge_beam_depth_m"] is None
 
 

@@ -34,14 +34,14 @@ def loop(tmp_path_factory):
         before = tuple(str(path) for path in found[-1]) if found else None
         analyse.main(
             mesh, here / "thickness.xlsx", *files, design="small", iteration=number,
-            span_m=SPAN, **PLACE, settings=stage("analyse"), previous=before,
+            span_m=SPAN, **PLACE, settings=stage("analyse"), settings_hash="base", previous=before,
         )  # fmt: skip
         found.append(files)
         if read_json(files[0])["verdict"] != "continue":
             break
         resize.main(
             *files, after / "thickness.xlsx", after / "memory.npz", after / "written.json",
-            design="small", **PLACE, settings=stage("resize"), settings_hash="",
+            design="small", **PLACE, settings=stage("resize"),
             previous_memory=memory,
         )  # fmt: skip
         memory = after / "memory.npz"
@@ -55,7 +55,7 @@ def _size(folder, analyses, mesh=None):
     size.main(
         analyses, classes, folder / "history.csv", folder / "history.xlsx",
         folder.parent / "design.xlsx", folder / "final.json", folder / "final.npz",
-        design=DESIGN, settings=stage("size"), settings_hash="0" * 12,
+        design=DESIGN, settings=stage("size"),
     )  # fmt: skip
 
 

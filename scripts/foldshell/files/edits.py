@@ -7,24 +7,33 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from foldshell.files.whole import atomic_path, hash_file, read_json, write_json
+import numpy as np
+
+from foldshell.files.whole import atomic_path, hash_data, hash_file, read_json, write_json
 
 WORKBOOK = "thickness.xlsx"
 ANALYSIS = "analysis.json"
 NEWER_NS = 1_000_000_000
 RECORD = "written.json"
-"""Beside each thickness.xlsx: the hash of the bytes that the workflow wrote."""
+"""Beside each thickness.xlsx: the hash of the bytes that the workflow wrote, and of the values."""
+
+DIGITS = 12
+"""Hexadecimal digits of the hash of all that decides a design, as tables and workbooks show it."""
 
 
 @contextmanager
-def recorded_workbook(workbook: str | Path, record: str | Path) -> Iterator[Path]:
-    """Yield a temporary name for a workbook; write down its hash, then rename it into place.
+def recorded_workbook(
+    workbook: str | Path, record: str | Path, values: np.ndarray
+) -> Iterator[Path]:
+    """Yield a temporary name for a workbook of thicknesses (P,) m; write down the hashes of its
+    bytes and of these `values`, then rename it into place.
 
     The workbook comes last, since the next analysis waits for it.
     """
     with atomic_path(workbook) as temporary:
         yield temporary
-        write_json(record, {"sha256": hash_file(temporary)})
+        hashes = {"sha256": hash_file(temporary), "values_sha256": hash_data(values.tolist())}
+        write_json(record, hashes)
 
 
 def is_edited(workbook: str | Path) -> bool:
@@ -38,6 +47,30 @@ def is_edited(workbook: str | Path) -> bool:
     except (OSError, ValueError, KeyError, TypeError):
         return False
     return workbook.exists() and hash_file(workbook) != recorded
+
+
+def hash_edit(decisions: str, workbook: str | Path, values: np.ndarray) -> str:
+    """Return the hash of all that decides a design, once its thicknesses (P,) m were read.
+
+    It stays what it was, unless a person has changed the values that the workflow wrote.
+    """
+    read = hash_data(values.tolist())
+    try:
+        written = read_json(Path(workbook).parent / RECORD)["values_sha256"]
+    except (OSError, ValueError, KeyError, TypeError):
+        written = read
+    return decisions if read == written else hash_data([decisions, read])[:DIGITS]
+
+
+def describe_reading(
+    workbook: str | Path, values: np.ndarray, decisions: str
+) -> dict[str, str | bool]:
+    """Return what an analysis says of the workbook of thicknesses (P,) m that it read."""
+    return {
+        "edited": is_edited(workbook),
+        "settings_hash": hash_edit(decisions, workbook, values),
+        "workbook_sha256": hash_file(workbook),
+    }
 
 
 def keep_edited(workbook: str | Path) -> bool:

@@ -116,6 +116,9 @@ class AnalysisRecord(ShellState):
     stationary_iterations: int = entry("iterations in a row with a small change of volume", COUNT)
     seconds: float | None = entry("wall time of the analysis", "s", left_out=True)
     edited: bool = entry("whether a person had changed the workbook that was read", default=False)
+    settings_hash: str | None = entry(
+        "hash of all that decides the design up to here: settings, surface, edits", left_out=True
+    )
     workbook_sha256: str | None = entry("SHA-256 of the workbook that was read", left_out=True)
 
     @property

@@ -60,7 +60,7 @@ class SummaryRow:
     crosscheck: str | None = entry(
         "pass, fail, or not possible for a mechanism", words="cross-check", default=None
     )
-    settings_hash: str = entry("hash of all settings that change results")
+    settings_hash: str | None = entry("hash of all that decides the final state of the design")
     reason: str | None = entry("why the state is so", default=None)
     buckling_mesh_error: float | None = same(MeshConvergenceRecord, "buckling_mesh_error")
     edge_beam_depth_m: float | None = _design("edge_beam_depth_m")

@@ -35,10 +35,15 @@ COLUMNS: dict[str, tuple[str, float]] = {
 """Columns of the summary that the page shows: words, and the factor of numbers (0: text)."""
 
 
+def read_rows(path: str | Path) -> list[dict[str, str]]:
+    """Read the rows of summary.csv."""
+    with Path(path).open(encoding="utf-8", newline="") as stream:
+        return list(csv.DictReader(stream))
+
+
 def write_summary_page(path: str | Path) -> str:
     """Return the page of summary.csv: a table that sorts by the column that is clicked."""
-    with Path(path).open(encoding="utf-8", newline="") as stream:
-        rows = list(csv.DictReader(stream))
+    rows = read_rows(path)
     counts: dict[str, int] = {}
     for row in rows:
         counts[row["state"]] = counts.get(row["state"], 0) + 1
@@ -81,14 +86,12 @@ def write_markdown_page(title: str, text: str) -> str:
 
 
 def write_settings_page(
-    settings: Mapping[str, Any], settings_hash: str, versions: Mapping[str, str]
+    settings: Mapping[str, Any], study_hash: str, versions: Mapping[str, str]
 ) -> str:
     """Return the page of the settings by group, and of the versions they were used with."""
     groups = list_settings(settings)
     groups.append(("Versions", make_table(("program", "version"), sorted(versions.items()))))
-    return render(
-        "settings.html", title="Settings and versions", digest=settings_hash, groups=groups
-    )
+    return render("settings.html", title="Settings and versions", digest=study_hash, groups=groups)
 
 
 def list_settings(settings: Mapping[str, Any]) -> list[tuple[str, Table]]:

@@ -25,6 +25,7 @@ from foldshell.report.provenance import Provenance
 from foldshell.report.study_columns import Column, choose_columns, count_verdicts, make_row
 from foldshell.report.study_pages import list_settings
 from foldshell.report.verification import make_verification
+from foldshell.results.summary import hash_study
 from foldshell.settings.analysed import LOADED
 from foldshell.settings.stage import read_stage
 
@@ -87,7 +88,6 @@ def _read_design(row: Mapping[str, str], folder: Path) -> DesignEntry:
 def write_study_report(
     files: StudyFiles,
     settings: Mapping[str, Any],
-    settings_hash: str,
     provenance: Provenance,
     to_results: str,
     left_out: Mapping[str, str],
@@ -118,7 +118,7 @@ def write_study_report(
         benchmarks=render_markdown(files.verification),
         loads=describe_loads(read_stage(analysed, *LOADED)),
         settings=list_settings(settings),
-        settings_hash=settings_hash,
+        study_hash=hash_study([entry.row for entry in files.designs]),
         provenance=provenance,
         data={"columns": [asdict(column) for column in columns], "designs": cards},
         to_results=to_results,

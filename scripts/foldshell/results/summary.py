@@ -1,10 +1,11 @@
 """One row a design from its result files; every design has a row, whatever became of it."""
 
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
-from foldshell.files.whole import read_json
+from foldshell.files.edits import DIGITS
+from foldshell.files.whole import hash_data, read_json
 from foldshell.results.history import find_least_factor
 
 SUMMARY_KEYS = (
@@ -48,12 +49,15 @@ _OF_FOLDING = ("edge_strain_max", "planarity_max")
 _COPIED += ("edge_beam_volume_m3", "edge_beam_utilization_max")
 
 
-def make_summary_row(
-    design: Mapping[str, Any], folder: str | Path, settings_hash: str
-) -> dict[str, Any]:
+def hash_study(rows: Iterable[Mapping[str, Any]]) -> str:
+    """Return 12 hexadecimal digits of the SHA-256 of the hashes of all designs of a summary."""
+    return hash_data({row["design"]: row.get("settings_hash") or "" for row in rows})[:DIGITS]
+
+
+def make_summary_row(design: Mapping[str, Any], folder: str | Path) -> dict[str, Any]:
     """Return the row of one design from the files under `folder` (results/<design>).
 
-    `design` holds the columns of designs.tsv and `mesh_subdivisions`. The state is the verdict of
+    `design` holds the columns of designs.tsv. The state is the verdict of
     the last analysis (converged, not_converged, at_minimum_thickness, unstable), or that of the
     folding where it went wrong (not_reached, crumpled), or `failed` where files are missing or
     damaged; `reason` says why. Seconds and dates never enter.
@@ -75,7 +79,7 @@ def make_summary_row(
     study = _read_optional(folder / "mesh_convergence.json")
     row |= {key: study.get(key) for key in ("mesh_error", "buckling_mesh_error")}
     row["crosscheck"] = _say_crosscheck(_read_optional(folder / "crosscheck/comparison.json"))
-    row["settings_hash"] = settings_hash
+    row |= {key: last.get(key) for key in ("mesh_subdivisions", "settings_hash")}
     return row
 
 

@@ -2,8 +2,11 @@
 
 import sys
 from collections.abc import Callable, Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
+
+import numpy as np
 
 from foldshell.files.errors import InputError
 from foldshell.files.meshes.surface import read_surface
@@ -42,23 +45,27 @@ def load_study(
     notes += [f"{source}: {note}" for note in found] if not notes else []
     check_defaults(settings, source)
     designs = read_designs(settings.designs, settings, notes)
-    check_surface_files(designs, str(settings.designs))
+    designs = measure_surface_files(designs, str(settings.designs))
     for note in dict.fromkeys(notes):
         say(note)
     return settings, designs
 
 
-def check_surface_files(designs: Iterable[Design], source: str) -> None:
-    """Raise `InputError` for a design whose surface is a mesh file that cannot be its target.
+def measure_surface_files(designs: Iterable[Design], source: str) -> list[Design]:
+    """Return the designs, those on a mesh file with the height that the file has, m.
 
-    Each file is read once for each span, whatever the number of designs.
+    Raises `InputError` for a mesh file that cannot be the target of its design. Each file is read
+    once for each span, whatever the number of designs.
     """
-    seen = set()
+    heights: dict[tuple[str, float], float] = {}
+    found = []
     for design in designs:
-        if design.surface in SURFACES or (design.surface, design.span) in seen:
-            continue
-        seen.add((design.surface, design.span))
-        try:
-            read_surface(design.surface, design.span)
-        except InputError as error:
-            raise InputError(f"{source}: design {design.name!r}: surface: {error}") from None
+        key = design.surface, design.span
+        if design.surface not in SURFACES and key not in heights:
+            try:
+                vertices = read_surface(*key).vertices
+            except InputError as error:
+                raise InputError(f"{source}: design {design.name!r}: surface: {error}") from None
+            heights[key] = float(f"{np.ptp(vertices[:, 2]):.12g}")
+        found.append(replace(design, height=heights.get(key, design.height)))
+    return found

@@ -1,14 +1,12 @@
 """What each stage of a design depends on: plain values for Snakemake's `params`, and hashes."""
 
-from collections.abc import Mapping
-from typing import Any
-
-from foldshell.files.whole import hash_data
+from foldshell.files.edits import DIGITS
+from foldshell.files.whole import hash_data, hash_file
 from foldshell.settings.analysed import ANALYSED, LOADED
 from foldshell.settings.analysis import Analysis
 from foldshell.settings.archive import Archive
 from foldshell.settings.crosscheck import Crosscheck
-from foldshell.settings.design import Design
+from foldshell.settings.design import SURFACES, Design
 from foldshell.settings.exports import Drawings, Exports
 from foldshell.settings.field import Plain, list_groups
 from foldshell.settings.fold import Fold, Pattern
@@ -62,11 +60,15 @@ def choose_subdivisions(settings: Settings, design: Design) -> int:
     return settings.analysis.subdivisions_demo if demo else settings.analysis.subdivisions
 
 
-def settings_hash(values: Settings | Mapping[str, Any]) -> str:
-    """Return 12 hexadecimal digits of the SHA-256 of settings that change results.
+def hash_decisions(settings: Settings, design: Design) -> str:
+    """Return 12 hexadecimal digits of the SHA-256 of all that decides the final state of a design.
 
-    `values` is either the whole settings (then the path of the table and the pictures do not
-    count) or a stage's plain parameters.
+    These are its columns but name and tags, the content of a surface that is a mesh file, and the
+    settings of `DECIDING`. A thickness that a person edits is added by `hash_edit` where it is
+    analysed. Other settings (cross-check, classes, pictures, jobs) change no final state.
     """
-    plain = stage_parameters(values, "study") if isinstance(values, Settings) else values
-    return hash_data(plain)[:12]
+    row = {key: value for key, value in design.to_row().items() if key not in ("design", "tags")}
+    if design.surface not in SURFACES:
+        row["surface"] = hash_file(design.surface)
+    groups = {stage: stage_parameters(settings, stage, design) for stage in DECIDING}
+    return hash_data({"design": row, "settings": groups})[:DIGITS]

@@ -51,6 +51,7 @@ def summarise_step(design: str, analysis: Mapping[str, Any], sizing: Sizing) -> 
         "iteration": analysis["iteration"] + 1,
         "verdict": f"{analysis['verdict']}: {analysis['reason']}",
         "volume_m3": analysis["volume_m3"],
+        "settings_hash": analysis["settings_hash"],
         **{f"{name}_m": getattr(sizing, name) for name in ("least_thickness", "largest_thickness")},
         **{name: getattr(sizing, name) for name in ("utilization_min", "utilization_max")},
     }

@@ -40,7 +40,6 @@ def make_design_report(
     iterations: Iterations,
     design: Design,
     settings: StageSettings,
-    settings_hash: str,
     versions: Mapping[str, str],
     grouped: Mapping[str, Any],
     panel_class: np.ndarray,
@@ -61,7 +60,7 @@ def make_design_report(
         **{name: last[name] for name in EDGE_BEAM if name in last},
         "buckling_factor_min": find_least_factor(last),
         **_summarise_classes(grouped),
-        "settings_hash": settings_hash,
+        "settings_hash": last["settings_hash"],
     }
     return DesignReport(
         title=f"Design {design.name}",

@@ -2,15 +2,26 @@
 
 import os
 
+import numpy as np
 import pytest
 
-from foldshell.files.edits import RECORD, is_edited, keep_all_edited, keep_edited, recorded_workbook
+from foldshell.files.edits import (
+    RECORD,
+    hash_edit,
+    is_edited,
+    keep_all_edited,
+    keep_edited,
+    recorded_workbook,
+)
 from foldshell.files.whole import hash_file, write_json
 from workbook_cases import edit_with_openpyxl, write_case
 
 
+VALUES = np.array([0.1, 0.1 + 0.2])
+
+
 def write_recorded(path):
-    with recorded_workbook(path, path.parent / RECORD) as temporary:
+    with recorded_workbook(path, path.parent / RECORD, VALUES) as temporary:
         write_case(temporary)
     return path
 
@@ -103,3 +114,14 @@ def test_a_workbook_that_was_read_keeps_its_date(path, tmp_path):
     os.utime(path, ns=(10**18, 10**18))
     keep_all_edited(tmp_path)
     assert path.stat().st_mtime_ns == 10**18
+
+
+def test_an_edited_value_changes_the_hash_of_decisions_and_a_saved_copy_does_not(path):
+    """Another file with the same values decides nothing else; one last bit does."""
+    assert hash_edit("base", path, VALUES) == "base"
+    edit_with_openpyxl(path, lambda book: None)
+    assert is_edited(path) and hash_edit("base", path, VALUES.copy()) == "base"
+    one = hash_edit("base", path, np.nextafter(VALUES, 1))
+    assert len(one) == 12 and one != hash_edit("other", path, np.nextafter(VALUES, 1))
+    (path.parent / RECORD).unlink()
+    assert hash_edit("base", path, VALUES) == "base"

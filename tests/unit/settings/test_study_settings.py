@@ -26,7 +26,7 @@ from foldshell.settings.load import load_study
 from foldshell.settings.make import make_settings, read_settings
 from foldshell.settings.sizing import Sizing
 from foldshell.settings.stage import read_stage, to_plain
-from foldshell.settings.stages import STAGES, settings_hash, stage_parameters
+from foldshell.settings.stages import STAGES, hash_decisions, stage_parameters
 from foldshell.settings.study import Settings
 from foldshell.shell.supports import SUPPORT_SETS
 from foldshell.sizing.rounding import round_thickness
@@ -290,13 +290,41 @@ def test_config_is_not_changed_in_place():
     assert config == before
 
 
-def test_hash_follows_values_that_matter_and_no_others():
-    plain = settings_hash(make_settings({}))
-    assert plain == settings_hash(make_settings({"loads": {"live_kn_m2": 1}}))  # 1 and 1.0
-    assert plain == settings_hash(make_settings({"designs": "other.tsv"}))
-    assert plain == settings_hash(make_settings({"figures": {"width_px": 800}}))
-    assert plain != settings_hash(make_settings({"loads": {"live_kn_m2": 1.1}}))
-    assert plain != settings_hash(make_settings({"sizing": {"step": 0.05}}))
+def test_hash_follows_all_that_decides_a_design_and_nothing_else(tmp_path):
+    """One hash: not of names, tags, pictures, classes or cross-check, which change no state."""
+    design, settings = Design(name="a"), make_settings({})
+    plain = hash_decisions(settings, design)
+    for same in (
+        {"loads": {"live_kn_m2": 1}},  # 1 and 1.0
+        {"designs": "other.tsv"},
+        {"figures": {"width_px": 800}},
+        {"sizing": {"classes": 7}},
+        {"crosscheck": {"tolerance": {"work": 0.1}}},
+        {"analysis": {"subdivisions_demo": 3}},
+    ):
+        assert hash_decisions(make_settings(same), design) == plain, same
+    for other in (
+        {"loads": {"live_kn_m2": 1.1}},
+        {"sizing": {"step": 0.05}},
+        {"sizing": {"start_thickness_mm": 100}},
+        {"analysis": {"subdivisions": 2}},
+        {"analysis": {"creep_coefficient": 1}},
+        {"fold": {"weights": {"hinge": 0.02}}},
+        {"pattern": {"sector_angle_deg": 61}},
+        {"loads": {"uplift": True}},
+    ):
+        assert hash_decisions(make_settings(other), design) != plain, other
+    assert hash_decisions(settings, Design(name="b", tags=("x",))) == plain
+    assert hash_decisions(settings, Design(name="a", tags=("demo",))) != plain
+    for column in ({"span": 27.0}, {"fold_mode": "exact"}, {"support": "strip"}, {"zigzag": 9}):
+        assert hash_decisions(settings, Design(name="a", **column)) != plain
+    (tmp_path / "one.stl").write_bytes(b"1")
+    (tmp_path / "same.stl").write_bytes(b"1")
+    one, same = (Design(name="a", surface=f"{tmp_path}/{n}.stl") for n in ("one", "same"))
+    first = hash_decisions(settings, one)
+    assert hash_decisions(settings, same) == first != plain
+    (tmp_path / "one.stl").write_bytes(b"2")
+    assert hash_decisions(settings, one) != first
 
 
 @pytest.mark.parametrize(

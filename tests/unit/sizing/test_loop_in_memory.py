@@ -13,7 +13,7 @@ from foldshell.sizing.case import open_case
 from foldshell.sizing.loop import run_loop
 from sizing_case import SPAN, STRIP, ZIGZAG, given, stage, write_small_mesh
 
-FILES_ONLY = {"seconds", "edited", "workbook_sha256"}
+FILES_ONLY = {"seconds", "edited", "workbook_sha256", "settings_hash"}
 
 
 def _run_files(folder, mesh, **sizing):
@@ -29,13 +29,13 @@ def _run_files(folder, mesh, **sizing):
             memory = before / "memory.npz"
             resize.main(
                 *previous, step / "thickness.xlsx", step / "memory.npz", step / "written.json",
-                design="small", settings=stage("resize", **sizing), settings_hash="0" * 12,
+                design="small", settings=stage("resize", **sizing),
                 previous_memory=memory if memory.exists() else None, **grid,
             )  # fmt: skip
         paths = step / "analysis.json", step / "analysis.npz"
         analyse.main(mesh, step / "thickness.xlsx", *paths, design="small", iteration=number,
-                     span_m=SPAN, settings=stage("analyse", **sizing), previous=previous,
-                     **grid)  # fmt: skip
+                     span_m=SPAN, settings=stage("analyse", **sizing), settings_hash="base",
+                     previous=previous, **grid)  # fmt: skip
         previous = paths
         reports.append(json.loads(paths[0].read_text()))
     return reports, read_arrays(previous[1])
