@@ -33,9 +33,8 @@ def main(
     """Write analysis.npz, then analysis.json; `previous` names those of the iteration before."""
     given = read_stage(settings, *ANALYSED)
     keep_edited(workbook_path)
-    grid = make_panel_grid(zigzag, strip)
     bounds = given.sizing.least_thickness, given.sizing.largest_thickness
-    thickness = read_thickness(workbook_path, grid, *bounds)
+    thickness = read_thickness(workbook_path, make_panel_grid(zigzag, strip), *bounds)
     before = (read_json(previous[0]), read_arrays(previous[1])) if previous else ({}, {})
     task = IterationTask(iteration, span_m, thickness, *before)
     report, fields = open_case(mesh_path, given).run(task)

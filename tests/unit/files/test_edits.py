@@ -16,7 +16,6 @@ from foldshell.files.edits import (
 from foldshell.files.whole import hash_file, write_json
 from workbook_cases import edit_with_openpyxl, write_case
 
-
 VALUES = np.array([0.1, 0.1 + 0.2])
 
 
