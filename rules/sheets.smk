@@ -67,7 +67,6 @@ rule summary_pdf:
     params:
         study=SETTINGS.study,
         results=results_folder,
-        settings=stage_parameters(SETTINGS, "study"),
     message:
         "summary of the study as PDF"
     script:

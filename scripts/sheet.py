@@ -13,7 +13,6 @@ from foldshell.report.sketch import draw_sketch
 from foldshell.settings.analysed import ANALYSED
 from foldshell.settings.design import Design
 from foldshell.settings.stage import Plain, read_stage
-from foldshell.settings.stages import settings_hash
 
 PICTURE_WIDTH = 800
 
@@ -33,7 +32,7 @@ def main(
     """
     one, given = Design.from_row(design), read_stage(settings, *ANALYSED)
     files, view = read_sheet(paths, one, given)
-    sheet = make_sheet(files, view, given, settings_hash(settings))
+    sheet = make_sheet(files, view, given)
     sketch = draw_sketch(view, find_marks(view, files.final))
     picture = shrink_picture(paths["utilization"], PICTURE_WIDTH)
     page = render("sheet.html", title=sheet["title"], sheet=sheet, sketch=sketch, picture=picture)

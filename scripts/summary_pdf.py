@@ -3,7 +3,6 @@
 import io
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from PIL import Image
 
@@ -11,7 +10,6 @@ from foldshell.engine.job import run_job
 from foldshell.report.pdf import pack_data, write_pdf
 from foldshell.report.study_report import read_study
 from foldshell.report.summary_sheet import make_summary_sheet
-from foldshell.settings.stages import settings_hash
 
 
 def main(
@@ -20,15 +18,13 @@ def main(
     *,
     study: str,
     results: str | Path,
-    settings: Mapping[str, Any],
 ) -> None:
     """Write counts, worst checks, a table of all designs, and the page of all pictures.
 
-    `paths` are summary (csv), tiles (json) and sheet (png), `results` has one folder per design,
-    `settings` are the plain parameters of stage `study`.
+    `paths` are summary (csv), tiles (json) and sheet (png), `results` has one folder per design.
     """
     files = read_study(study, paths["summary"], results, paths["tiles"], {}, None, "")
-    data = make_summary_sheet(files, settings_hash(settings))
+    data = make_summary_sheet(files)
     stream = io.BytesIO()
     with Image.open(paths["sheet"]) as whole:
         whole.convert("RGB").save(stream, format="PNG")

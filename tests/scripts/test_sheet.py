@@ -15,7 +15,6 @@ from foldshell.files.errors import InputError
 from foldshell.files.whole import read_json, write_json
 from foldshell.report.pdf import write_pdf
 from report_cases import DESIGN, SETTINGS, write_files
-from scripts.test_report import SETTINGS as STUDY_SETTINGS
 from scripts.test_report import final_of, write_results
 
 EVIL = '</style><img src=x onerror="1">#panic("typst")'
@@ -111,9 +110,7 @@ def test_summary_has_a_row_per_design(tmp_path):
     given = write_results(tmp_path)
     Image.new("RGB", (600, 300), "white").save(tmp_path / "all.png")
     paths = given["paths"] | {"sheet": tmp_path / "all.png"}
-    summary_pdf.main(
-        paths, tmp_path / "summary.pdf", study="mine", results=tmp_path, settings=STUDY_SETTINGS
-    )
+    summary_pdf.main(paths, tmp_path / "summary.pdf", study="mine", results=tmp_path)
     assert measure_pages((tmp_path / "summary.pdf").read_bytes()) == [(842, 595)] * 2
 
 

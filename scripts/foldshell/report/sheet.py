@@ -54,9 +54,7 @@ def find_marks(view: DesignView, final: AnalysisRecord) -> list[Mark]:
     return marks
 
 
-def make_sheet(
-    files: SheetFiles, view: DesignView, settings: StageSettings, settings_hash: str
-) -> dict[str, Any]:
+def make_sheet(files: SheetFiles, view: DesignView, settings: StageSettings) -> dict[str, Any]:
     """Return the sheet as plain data: words and tables, each a header, rows of texts, and which
     columns hold numbers."""
     loads = describe_loads(settings)
@@ -78,7 +76,7 @@ def make_sheet(
         "checks": [_bar(check) for check in files.checks],
         "tables": {name: list_texts(table) for name, table in tables.items() if table.rows},
         "edited": files.final.edited,
-        "settings_hash": settings_hash,
+        "settings_hash": files.final.settings_hash,
     }
 
 

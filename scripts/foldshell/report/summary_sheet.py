@@ -7,6 +7,7 @@ from foldshell.report.markup import format_number, make_table
 from foldshell.report.sheet import list_texts
 from foldshell.report.study_columns import GOVERNING, choose_columns, count_verdicts, make_row
 from foldshell.report.study_report import StudyFiles, describe_kinds, list_worst
+from foldshell.results.summary import hash_study
 
 SHOWN = (GOVERNING.key, "state", "engineering", "crosscheck", "volume_m3", "volume_per_area_m",
          "utilization_mean", "displacement_vertical_max_m", "buckling_factor_min",
@@ -14,7 +15,7 @@ SHOWN = (GOVERNING.key, "state", "engineering", "crosscheck", "volume_m3", "volu
 """Columns of the table, as far as the study has them; the governing check stands last."""
 
 
-def make_summary_sheet(files: StudyFiles, settings_hash: str) -> dict[str, Any]:
+def make_summary_sheet(files: StudyFiles) -> dict[str, Any]:
     """Return counts of verdicts, the worst checks, and a table with one row per design."""
     rows = [entry.row for entry in files.designs]
     columns = [column for column in choose_columns(rows) if column.key in SHOWN]
@@ -33,5 +34,5 @@ def make_summary_sheet(files: StudyFiles, settings_hash: str) -> dict[str, Any]:
                      for kind, found in count_verdicts(rows).items()},
         "worst": list_texts(list_worst(files.designs)),
         "designs": list_texts(make_table(header, table)),
-        "settings_hash": settings_hash,
+        "study_hash": hash_study(rows),
     }  # fmt: skip
