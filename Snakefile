@@ -7,17 +7,20 @@ import os
 import sys
 from pathlib import Path
 
-HOME = Path(str(workflow.current_basedir)).resolve()
-sys.path.insert(0, str(HOME / "scripts"))
+sys.path.insert(0, str(Path(str(workflow.current_basedir)).resolve() / "scripts"))
 
 from foldshell.settings.config_file import read_config
 from foldshell.engine.environment import ONE_THREAD, prepare_environment
+from foldshell.engine.plain_path import find_plain_path
 from foldshell.engine.versions import check_snakemake
 from foldshell.files.errors import user_errors
 from foldshell.settings.load import load_study
+from foldshell.settings.places import STUDIES, check_results, choose_results
 from foldshell.files.edits import keep_all_edited
 
 prepare_environment(os.environ)
+HOME = find_plain_path(str(workflow.current_basedir))
+RULES = f"{HOME}/rules"
 
 with user_errors():
     check_snakemake()
@@ -29,9 +32,10 @@ configfile: "config/config.yaml"
 
 with user_errors():
     SETTINGS, DESIGNS = load_study(config, workflow.configfiles)
+    RESULTS = choose_results(SETTINGS)
+    check_results(RESULTS, SETTINGS.designs)
 
-
-RESULTS = "results"
+STUDY = f"{RESULTS}/{STUDIES}/{SETTINGS.study}"
 
 for path in keep_all_edited(RESULTS):
     print(f"kept a copy of the edited workbook {path}", file=sys.stderr)
@@ -43,30 +47,21 @@ wildcard_constraints:
     tag=r"[a-z0-9][a-z0-9_-]{0,63}",
 
 
-include: "rules/common.smk"
+include: f"{RULES}/common.smk"
 
 
 rule all:
     default_target: True
     input:
-        study_files(SETTINGS.study),
-        f"{RESULTS}/summary.csv",
-        f"{RESULTS}/summary.xlsx",
-        f"{RESULTS}/report.html",
+        lambda wildcards: study_files(SETTINGS.study),
+        f"{STUDY}/report.html",
+        f"{STUDY}/manifest.json",
 
 
-include: "rules/pattern.smk"
-include: "rules/fold.smk"
-include: "rules/shell.smk"
-include: "rules/sizing.smk"
-include: "rules/final.smk"
-include: "rules/crosscheck.smk"
-include: "rules/study.smk"
-include: "rules/deliver.smk"
-include: "rules/manifest.smk"
-include: "rules/figures.smk"
-include: "rules/report.smk"
-include: "rules/archive.smk"
+STAGES = ["pattern", "fold", "shell", "sizing", "final", "crosscheck", "study", "deliver"]
+for STAGE in [*STAGES, "manifest", "figures", "report", "sheets", "archive", "finish"]:
+
+    include: f"{RULES}/{STAGE}.smk"
 
 
 for TAG in sorted({tag for design in DESIGNS for tag in design.tags}):
@@ -75,6 +70,4 @@ for TAG in sorted({tag for design in DESIGNS for tag in design.tags}):
         name:
             "demo" if TAG == "demo" else f"tag_{TAG}"
         input:
-            study_files(TAG),
-            f"{RESULTS}/tags/{TAG}/summary.csv",
-            f"{RESULTS}/tags/{TAG}/summary.xlsx",
+            lambda wildcards, tag=TAG: study_files(tag),

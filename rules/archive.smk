@@ -3,21 +3,21 @@
 
 rule archive_study:
     input:
-        files=study_files(SETTINGS.study),
-        summary=[f"{RESULTS}/summary.csv", f"{RESULTS}/summary.xlsx"],
+        files=lambda wildcards: study_files(SETTINGS.study),
+        summary=[f"{STUDY}/summary.csv", f"{STUDY}/summary.xlsx"],
         library=code_inputs("archive"),
     output:
-        pointer=f"{RESULTS}/studies/{SETTINGS.study}/archive/archive.json",
+        pointer=f"{STUDY}/archive/archive.json",
     log:
         study_log("archive"),
     conda:
         "../envs/foldshell.yaml"
     params:
         tag=SETTINGS.study,
-        designs=names_of_tag(SETTINGS.study),
+        designs=lambda wildcards: names_of_tag(SETTINGS.study),
         results=RESULTS,
-        project=str(workflow.basedir),
-        config=config,
+        project=str(HOME),
+        config=parse_group(type(SETTINGS), config),
         tables=[SETTINGS.designs],
         settings=stage_parameters(SETTINGS, "archive"),
     message:

@@ -63,9 +63,9 @@ rule claims:
         kinematics=rules.kinematics.output.table,
         library=code_inputs("claims"),
     output:
-        json=f"{RESULTS}/claims.json",
-        page=f"{RESULTS}/claims.md",
-        runs=f"{RESULTS}/sensitivity.csv",
+        json=f"{STUDY}/claims.json",
+        page=f"{STUDY}/claims.md",
+        runs=f"{STUDY}/sensitivity.csv",
     log:
         study_log("claims"),
     conda:

@@ -7,7 +7,6 @@ from foldshell.settings.design import SURFACES
 from foldshell.settings.designs import select_designs
 from foldshell.engine.imports import write_content_list, write_library_list
 from foldshell.files.package_data import library_folder
-from foldshell.records.catalogue import FILES
 from foldshell.settings.stages import choose_subdivisions, hash_decisions, stage_parameters
 
 BY_NAME = {design.name: design for design in DESIGNS}
@@ -60,15 +59,17 @@ def of_stage(stage):
 
 
 def surface_file(wildcards):
-    """Return the mesh file that is a design's target surface, if it is one."""
+    """Return the mesh file that is a design's target surface, if it is one; Snakemake would take a
+    brace in its name for a wildcard."""
     surface = BY_NAME[wildcards.design].surface
-    return [] if surface in SURFACES else [surface]
+    return [] if surface in SURFACES or set("{}") & set(surface) else [surface]
 
 
 def surface_content(wildcards):
     """Return a file whose name tells the content of a design's surface file, as an input beside it:
     the content decides whether a rule runs again, not the date."""
-    return [write_content_list([path], ".snakemake/library") for path in surface_file(wildcards)]
+    surface = BY_NAME[wildcards.design].surface
+    return [] if surface in SURFACES else [write_content_list([surface], ".snakemake/library")]
 
 
 def subdivisions(wildcards):
@@ -91,27 +92,6 @@ def names_of_tag(tag):
     """Return the names of the designs with a tag."""
     with user_errors():
         return [design.name for design in select_designs(DESIGNS, tag, SETTINGS.designs)]
-
-
-SCHEMAS = [f"{RESULTS}/schemas/{file.name}.schema.json" for file in FILES]
-
-
-def design_files(name):
-    """Return what is made of a design, but its manifest."""
-    files = ["design.xlsx", "design.vtu", "crosscheck/comparison.json", "page.html"]
-    files += ["sheet.html"]
-    files += [f"figures/{picture}.png" for picture in PICTURES]
-    unfolded = [f"pattern/developable_pattern.{kind}" for kind in ("fold", "dxf", "svg")]
-    files += unfolded * (BY_NAME[name].fold_mode in ("exact", "rigid"))
-    return [f"{RESULTS}/{name}/{file}" for file in files]
-
-
-def study_files(tag):
-    """Return what is made of every design with a tag, and the schemas of these files."""
-    names = names_of_tag(tag)
-    return SCHEMAS + [
-        file for name in names for file in [*design_files(name), f"{RESULTS}/{name}/manifest.json"]
-    ]
 
 
 include: "loop.smk"

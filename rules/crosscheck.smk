@@ -83,7 +83,7 @@ rule crosscheck_opensees:
         primaries=[f"{folder}/primary.json" for folder in THIRD],
         library=code_inputs("crosscheck_opensees"),
     output:
-        table=f"{RESULTS}/crosscheck_opensees.csv",
+        table=f"{STUDY}/crosscheck_opensees.csv",
     log:
         study_log("crosscheck_opensees"),
     conda:

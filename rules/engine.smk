@@ -13,6 +13,7 @@ from foldshell.engine.fork_client import AVAILABLE, ForkServer, NoForkServer
 from foldshell.engine.job_end import describe_end, show_log
 from foldshell.engine.name_check import NameCheck
 from foldshell.engine.preload import MODULES, POOLS
+from foldshell.settings.places import claim_results
 
 SERVERS = []  # the fork server, once the first job may start
 PRIVATE = NameCheck()
@@ -97,6 +98,7 @@ if (
 
 onstart:
     RUN["started"] = True
+    claim_results(RESULTS, SETTINGS.designs)
     dag, scheduler = workflow.dag, workflow.scheduler
     if workflow.local_exec:
         # To keep to 100 starts a second, Snakemake 9 wakes its scheduler every second once more for

@@ -6,7 +6,7 @@ include: "report_files.smk"
 
 rule study_figures:
     input:
-        summary=rules.summary.output.csv,
+        summary=f"{STUDY}/summary.csv",
         designs=final_states,
         library=code_inputs("study_figures"),
     output:
@@ -35,12 +35,12 @@ use rule study_figures as panel_figures with:
 
 rule all_designs:
     input:
-        summary=rules.summary.output.csv,
+        summary=f"{STUDY}/summary.csv",
         designs=final_states,
         library=code_inputs("all_designs"),
     output:
         **{name: figure(name) for name in SHEETS},
-        tiles=f"{RESULTS}/figures/tiles.json",
+        tiles=f"{STUDY}/figures/tiles.json",
     log:
         study_log("all_designs"),
     conda:

@@ -1,6 +1,7 @@
 # Files: logs and times of jobs, what the rules over all designs read and write.
 
 from foldshell.claims.sensitivity import VARIANTS
+from foldshell.records.catalogue import FILES
 
 
 def results_folder(_wildcards):
@@ -18,13 +19,39 @@ def log_of(rule, suffix=""):
     return f"{RESULTS}/logs/{rule}/{{design}}{suffix}.log"
 
 
-def study_log(name):
-    """Return where what a job over all designs prints is kept."""
-    return f"{RESULTS}/logs/{name}.log"
+def study_log(rule, tag=SETTINGS.study):
+    """Return where what a job over all designs of a study prints is kept."""
+    return f"{RESULTS}/logs/{rule}/{tag}.log"
+
+
+SCHEMAS = [f"{RESULTS}/schemas/{file.name}.schema.json" for file in FILES]
+
+
+def design_files(name):
+    """Return what is made of a design, but its manifest."""
+    files = ["design.xlsx", "design.vtu", "crosscheck/comparison.json", "page.html"]
+    files += ["sheet.html"]
+    files += [f"figures/{picture}.png" for picture in PICTURES]
+    unfolded = [f"pattern/developable_pattern.{kind}" for kind in ("fold", "dxf", "svg")]
+    files += unfolded * (BY_NAME[name].fold_mode in ("exact", "rigid"))
+    return [f"{RESULTS}/{name}/{file}" for file in files]
+
+
+def manifests(tag):
+    """Return the manifest of every design with a tag."""
+    return [f"{RESULTS}/{name}/manifest.json" for name in names_of_tag(tag)]
+
+
+def study_files(tag):
+    """Return what is made of every design with a tag, their summary, and schemas of all files."""
+    files = [file for name in names_of_tag(tag) for file in design_files(name)]
+    return SCHEMAS + files + manifests(tag) + [f"{RESULTS}/{STUDIES}/{tag}/summary.csv"]
 
 
 def summary_inputs(tag):
-    """Return the result files that the summary of a tag's designs reads."""
+    """Return the result files that the summary of a tag's designs reads, and take note of the study:
+    a copy of what it made is put into the folder of results at the end of the run."""
+    RUN["studies"].append(tag)
     files = ["folded/quality.json", "sizing/final.json", "mesh_convergence.json"]
     files.append("crosscheck/comparison.json")
     return [f"{RESULTS}/{name}/{file}" for name in names_of_tag(tag) for file in files]

@@ -21,8 +21,8 @@ def memory_before_last(wildcards):
     return [f"{folder}/memory.npz"] if number > 0 and not REPORTING else []
 
 
-RUN = {"started": False}
-"""Whether jobs run already; `onstart` says so."""
+RUN = {"started": False, "studies": []}
+"""Whether jobs run already; `onstart` says so. The studies whose summary is up to date at the end."""
 
 REPORTING = "--report" in sys.argv
 """No job will run: the last analysis of a loop stands for all, which makes a study of a thousand

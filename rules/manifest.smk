@@ -16,10 +16,33 @@ rule manifest:
     conda:
         "../envs/foldshell.yaml"
     params:
+        title=lambda wildcards: wildcards.design,
         deciding_rules=DECIDING,
         code=str(HOME),
     message:
         "{wildcards.design}: manifest"
+    script:
+        "../scripts/manifest.py"
+
+
+rule study_manifest:
+    input:
+        files=[f"{STUDY}/report.html", f"{STUDY}/summary.csv"],
+        members=lambda wildcards: manifests(SETTINGS.study),
+        library=code_inputs("manifest"),
+    output:
+        manifest=f"{STUDY}/manifest.json",
+    log:
+        study_log("study_manifest"),
+    priority: AFTER_LOOP
+    conda:
+        "../envs/foldshell.yaml"
+    params:
+        title=SETTINGS.study,
+        deciding_rules=[],
+        code=str(HOME),
+    message:
+        "manifest of the study"
     script:
         "../scripts/manifest.py"
 

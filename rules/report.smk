@@ -1,30 +1,32 @@
 # The report of the study: ours, and Snakemake's own of what is flagged with `report(...)`.
 
+from foldshell.settings.check import parse_group
+
 
 report: "../docs/report/workflow.rst"
 
 
 rule report_pages:
     input:
-        summary=rules.summary.output.csv,
+        summary=f"{STUDY}/summary.csv",
         verification=[f"{SCRIPTS}/../tests/verification/README.md"],
         library=code_inputs("report_pages"),
         assets=assets(),
     output:
         summary=report(
-            f"{RESULTS}/report/summary.html",
+            f"{STUDY}/report/summary.html",
             category="1 Summary",
             caption="../docs/report/summary.rst",
             labels={"page": "all designs"},
         ),
         verification=report(
-            f"{RESULTS}/report/verification.html",
+            f"{STUDY}/report/verification.html",
             category="5 Verification",
             caption="../docs/report/verification.rst",
             labels={"page": "verification of the shell element"},
         ),
         settings=report(
-            f"{RESULTS}/report/settings.html",
+            f"{STUDY}/report/settings.html",
             category="6 Settings and versions",
             caption="../docs/report/settings.rst",
             labels={"page": "settings and versions"},
@@ -43,12 +45,12 @@ rule report_pages:
 
 rule claims_page:
     input:
-        claims=f"{RESULTS}/claims.md",
+        claims=f"{STUDY}/claims.md",
         library=code_inputs("claims_page"),
         assets=assets(),
     output:
         page=report(
-            f"{RESULTS}/report/claims.html",
+            f"{STUDY}/report/claims.html",
             category="2 Claims",
             caption="../docs/report/claims.rst",
             labels={"page": "claims of the paper"},
@@ -65,7 +67,7 @@ rule claims_page:
 
 rule report:
     input:
-        summary=rules.summary.output.csv,
+        summary=f"{STUDY}/summary.csv",
         tiles=rules.all_designs.output.tiles,
         verification=f"{SCRIPTS}/../tests/verification/README.md",
         claims=judged_claims,
@@ -74,7 +76,7 @@ rule report:
         library=code_inputs("report"),
         assets=assets(),
     output:
-        report=f"{RESULTS}/report.html",
+        report=f"{STUDY}/report.html",
     log:
         study_log("report"),
     conda:
@@ -82,7 +84,7 @@ rule report:
     params:
         study=SETTINGS.study,
         results=results_folder,
-        project=workflow.basedir,
+        project=str(HOME),
         settings=stage_parameters(SETTINGS, "study"),
         left_out=LEFT_OUT,
     message:
@@ -102,7 +104,7 @@ rule snakemake_report:
         library=code_inputs("snakemake_report"),
         stylesheet=f"{PAGES}/snakemake_report.css",
     output:
-        report=f"{RESULTS}/snakemake_report.html",
+        report=f"{STUDY}/snakemake_report.html",
     log:
         study_log("snakemake_report"),
     conda:
@@ -110,11 +112,8 @@ rule snakemake_report:
     params:
         snakefile=main_snakefile(),
         target="report_contents",
-        config=config,
+        config=parse_group(type(SETTINGS), config),
     message:
         "Snakemake's own report"
     script:
         "../scripts/snakemake_report.py"
-
-
-include: "sheets.smk"

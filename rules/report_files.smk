@@ -15,7 +15,7 @@ SHEETS = ["all_thickness", "all_utilization"]
 def figure(name):
     """Return a figure over all designs, flagged for the report."""
     return report(
-        f"{RESULTS}/figures/{name}.png",
+        f"{STUDY}/figures/{name}.png",
         category="3 Figures",
         caption="../docs/report/figure.rst",
         labels={"figure": name.replace("_", " ")},
@@ -24,7 +24,7 @@ def figure(name):
 
 def charts(names):
     """Return the outputs of a rule that draws charts."""
-    return {name: [figure(name), f"{RESULTS}/figures/{name}.svg"] for name in names}
+    return {name: [figure(name), f"{STUDY}/figures/{name}.svg"] for name in names}
 
 
 def final_states(_wildcards):
@@ -36,24 +36,24 @@ def final_states(_wildcards):
 def has_claims():
     """Tell whether the claims are judged or asked for: they need many more runs than the study."""
     asked = is_target("report", "snakemake_report", "claims")
-    return asked or Path(f"{RESULTS}/claims.json").exists()
+    return asked or Path(f"{STUDY}/claims.json").exists()
 
 
 def judged_claims(wildcards):
     """Return the claims for the report, nothing where they are not judged."""
-    return f"{RESULTS}/claims.json" if has_claims() else []
+    return f"{STUDY}/claims.json" if has_claims() else []
 
 
 def charts_of_study(wildcards):
     """Return the charts that compare anything."""
-    return [f"{RESULTS}/figures/{name}.png" for name in CHARTS + PANEL_CHARTS]
+    return [f"{STUDY}/figures/{name}.png" for name in CHARTS + PANEL_CHARTS]
 
 
 def report_files(wildcards):
     """Return what Snakemake's own report shows."""
-    pages = [f"{RESULTS}/report/{name}.html" for name in ("summary", "verification", "settings")]
-    pages += [f"{RESULTS}/timings.csv"] + [f"{RESULTS}/report/claims.html"] * has_claims()
-    figures = [f"{RESULTS}/figures/{name}.png" for name in CHARTS + PANEL_CHARTS + SHEETS]
+    pages = [f"{STUDY}/report/{name}.html" for name in ("summary", "verification", "settings")]
+    pages += [f"{STUDY}/timings.csv"] + [f"{STUDY}/report/claims.html"] * has_claims()
+    figures = [f"{STUDY}/figures/{name}.png" for name in CHARTS + PANEL_CHARTS + SHEETS]
     designs = [f"{RESULTS}/{name}/page.html" for name in names_of_tag(SETTINGS.study)]
     return pages + figures + designs
 

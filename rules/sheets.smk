@@ -52,14 +52,14 @@ rule sheet_pdf:
 
 rule summary_pdf:
     input:
-        summary=rules.summary.output.csv,
+        summary=f"{STUDY}/summary.csv",
         tiles=rules.all_designs.output.tiles,
         sheet=rules.all_designs.output.all_thickness,
         designs=report_designs,
         library=code_inputs("summary_pdf"),
         assets=assets(),
     output:
-        pdf=f"{RESULTS}/summary.pdf",
+        pdf=f"{STUDY}/summary.pdf",
     log:
         study_log("summary_pdf"),
     conda:

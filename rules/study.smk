@@ -18,50 +18,32 @@ rule schemas:
 
 rule summary:
     input:
-        results=summary_inputs(SETTINGS.study),
-        library=code_inputs("summary"),
-    output:
-        csv=f"{RESULTS}/summary.csv",
-        xlsx=f"{RESULTS}/summary.xlsx",
-    log:
-        study_log("summary"),
-    conda:
-        "../envs/foldshell.yaml"
-    params:
-        designs=summary_rows(SETTINGS.study),
-        results=results_folder,
-        settings=stage_parameters(SETTINGS, "study"),
-    message:
-        "summary of the study"
-    script:
-        "../scripts/summary.py"
-
-
-use rule summary as summary_of_tag with:
-    input:
         results=lambda wildcards: summary_inputs(wildcards.tag),
         library=code_inputs("summary"),
     output:
-        csv=f"{RESULTS}/tags/{{tag}}/summary.csv",
-        xlsx=f"{RESULTS}/tags/{{tag}}/summary.xlsx",
+        csv=f"{RESULTS}/{STUDIES}/{{tag}}/summary.csv",
+        xlsx=f"{RESULTS}/{STUDIES}/{{tag}}/summary.xlsx",
     log:
-        study_log("summary-{tag}"),
+        study_log("summary", "{tag}"),
+    conda:
+        "../envs/foldshell.yaml"
     params:
         designs=lambda wildcards: summary_rows(wildcards.tag),
         results=results_folder,
         settings=stage_parameters(SETTINGS, "study"),
     message:
         "summary of {wildcards.tag}"
+    script:
+        "../scripts/summary.py"
 
 
 rule timings:
     input:
-        rules.summary.output.csv,
-        study_files(SETTINGS.study),
+        lambda wildcards: study_files(SETTINGS.study),
         library=code_inputs("timings"),
     output:
         csv=report(
-            f"{RESULTS}/timings.csv",
+            f"{STUDY}/timings.csv",
             category="6 Settings and versions",
             caption="../docs/report/timings.rst",
             labels={"page": "time of each rule"},

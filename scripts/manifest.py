@@ -6,8 +6,8 @@ from pathlib import Path
 from foldshell.engine.provenance import find_versions
 from foldshell.files.errors import user_errors
 from foldshell.files.job_record import hash_result, read_records
-from foldshell.files.manifest import make_manifest, write_manifest
-from foldshell.files.whole import hash_file
+from foldshell.files.manifest import make_manifest, read_manifest, write_manifest
+from foldshell.files.whole import hash_data, hash_file
 
 
 def main(
@@ -24,13 +24,14 @@ def main(
     """
     home = Path(path).parent
     records = read_records(home)
+    decided = sorted(read_manifest(member).result_sha256 for member in members)
     write_manifest(
         path,
         make_manifest(
             title,
             home,
             records,
-            hash_result(records, deciding_rules),
+            hash_data(decided) if decided else hash_result(records, deciding_rules),
             find_versions(code),
             {_relative(Path(member), home): hash_file(member) for member in members},
         ),
@@ -46,6 +47,6 @@ if "snakemake" in globals():
     with user_errors():
         main(
             snakemake.output.manifest,  # noqa: F821
-            title=snakemake.wildcards.design,  # noqa: F821
+            members=snakemake.input.get("members", ()),  # noqa: F821
             **snakemake.params,  # noqa: F821
         )

@@ -12,7 +12,7 @@ from pathlib import Path
 import yaml
 
 REPOSITORY = Path(__file__).parents[2]
-TARGET = "results/summary.csv"
+TARGET = "results/studies/tiny/summary.csv"
 HEADER = "design\tsurface\tspan_m\theight_m\tzigzag\tstrip\tsupport\ttags\n"
 DESIGNS = (
     "tiny-dome\tparaboloid\t8\t2\t5\t6\tall\ttiny\ntiny-saddle\thypar\t8\t2\t5\t6\tstrip\ttiny\n"

@@ -14,23 +14,25 @@ BROWSERS_LIMIT = 2_000_000
 def test_report_holds_every_page_below_the_limit(code, tmp_path):
     """Pages of both designs, summary, verification, settings and figures; no claims, no host."""
     folder = make_study(tmp_path / "study")
-    done = run(code, folder, "results/snakemake_report.html", "results/report.html")
+    study = "results/studies/tiny"
+    done = run(code, folder, f"{study}/snakemake_report.html", f"{study}/report.html")
     assert done.returncode == 0, done.stderr[-3000:]
-    text = (folder / "results/snakemake_report.html").read_text(encoding="utf-8")
+    text = (folder / "results/studies/tiny/snakemake_report.html").read_text(encoding="utf-8")
     data = re.search(r"var results = (\{.*?\});\n", text, re.S)[1]
     results = json.loads(data)
-    for name in ("tiny-dome/page", "tiny-saddle/page", "report/summary", "report/verification",
-                 "report/settings"):  # fmt: skip
-        assert len(results[f"results/{name}.html"]["data_uri"]) < BROWSERS_LIMIT
-    assert "results/figures/all_thickness.png" in results
+    pages = [f"{study}/report/{name}" for name in ("summary", "verification", "settings")]
+    for name in ("results/tiny-dome/page", "results/tiny-saddle/page", *pages):
+        assert len(results[f"{name}.html"]["data_uri"]) < BROWSERS_LIMIT
+    assert "results/studies/tiny/figures/all_thickness.png" in results
     assert (code / "scripts/foldshell/report/snakemake_report.css").read_text().strip() in text
-    assert "results/report/claims.html" not in results
+    assert "results/studies/tiny/report/claims.html" not in results
     graph = re.search(r"var rulegraph_spec = (\{.*?\});\n", text, re.S)[1]
     assert '"analyse"' in graph and '"resize"' in graph  # though only last analyses are looked at
     assert not re.search(r'<(?:script|link|img)[^>]+(?:src|href)="http', text)
-    own = (folder / "results/report.html").read_text(encoding="utf-8")
+    own = (folder / "results/studies/tiny/report.html").read_text(encoding="utf-8")
     for name in ("tiny-dome", "tiny-saddle"):
-        assert f'href="./{name}/page.html"' in own
+        assert f'href="../../{name}/page.html"' in own
+        assert f'href="{name}/page.html"' in (folder / "results/report.html").read_text()
     assert "Not drawn: supports, no two designs tagged supports to compare." in own
     assert "snakemake --cores 2 claims" in own
     assert "default-src 'none'" in own

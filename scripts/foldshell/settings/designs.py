@@ -14,6 +14,7 @@ from foldshell.settings.consistency import check_thickness
 from foldshell.settings.design import COLUMNS, SURFACES, Design, DesignColumns
 from foldshell.settings.field import list_settings
 from foldshell.settings.nearest import hint_nearest
+from foldshell.settings.places import RESERVED
 from foldshell.settings.study import Settings
 
 NAME = re.compile(r"[a-z0-9][a-z0-9_-]{0,63}")
@@ -22,10 +23,6 @@ NAME_ALLOWED = (
 )
 TAGS = re.compile(r"([a-z0-9][a-z0-9_]{0,31}(, ?[a-z0-9][a-z0-9_]{0,31})*)?")
 TAGS_ALLOWED = "a list of words of lower-case letters, digits and _, with commas between"
-# Names under results/ that are not designs, and device names that Windows cannot create.
-_RESERVED = {"archive", "bench", "figures", "logs", "report", "schemas"}
-_RESERVED |= {"con", "prn", "aux", "nul"}
-_RESERVED |= {f"{device}{number}" for device in ("com", "lpt") for number in range(1, 10)}
 _DESIGNS_MAX = 10_000
 
 
@@ -136,7 +133,7 @@ def _make_design(
 def _check_name(name: str, where: str) -> None:
     if not NAME.fullmatch(name):
         raise InputError(f"{where}: design: {name!r}: {NAME_ALLOWED} is allowed")
-    if name in _RESERVED:
+    if name in RESERVED:
         raise InputError(f"{where}: design: this name is reserved, choose another one")
 
 

@@ -44,6 +44,9 @@ class Figures(Group):
     height_px: int = setting(1200, unit="px", minimum=200, maximum=8000, meaning="Height.")
 
 
+AUTO = "auto"
+
+
 @settings_group
 class Settings(Group):
     """Every setting of a study; a stage's settings hold only the groups that it takes."""
@@ -52,10 +55,15 @@ class Settings(Group):
         "config/designs.tsv",
         meaning="Table of designs, one row each; `--config designs=PATH` takes another one.",
     )
+    results: str = setting(
+        AUTO,
+        meaning="Folder of the results. `auto` is `results`, and `results/<name>` for a table that "
+        "is not called designs.tsv; `--config results=FOLDER` takes another one.",
+    )
     study: str = setting(
         "table1",
-        meaning="Tag of the designs that the default target runs and `results/summary.csv` lists; "
-        "`--config study=TAG` takes another one.",
+        meaning="Tag of the designs that the default target runs; what is said over all of them "
+        "stands in `results/studies/<study>/`. `--config study=TAG` takes another one.",
     )
     defaults: DesignColumns
     pattern: Pattern
