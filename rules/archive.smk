@@ -15,7 +15,7 @@ rule archive_study:
     params:
         tag=SETTINGS.study,
         designs=lambda wildcards: names_of_tag(SETTINGS.study),
-        results=RESULTS,
+        results=results_folder,
         project=str(HOME),
         config=parse_group(type(SETTINGS), config),
         tables=[SETTINGS.designs],
