@@ -22,7 +22,7 @@ from foldshell.results.fields import (
     principal_forces,
 )
 from foldshell.results.isolines import utilization_isolines
-from foldshell.results.principal_stress_lines import split_lines
+from foldshell.results.line_spacing import split_lines
 from foldshell.results.state import DesignState
 from foldshell.settings.field import Factors
 from foldshell.settings.material import Material

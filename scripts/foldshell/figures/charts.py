@@ -11,6 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from foldshell.figures.layout import TITLE_SIZE
 from foldshell.figures.study_data import UTILIZATION_BIN, UTILIZATION_END, StudyDesign
 from foldshell.files.whole import atomic_path
 from foldshell.results.comparisons import Comparison, pair_supports, sort_into_columns
@@ -21,6 +22,10 @@ HATCHES = ("", "///", "...", "xxx", "\\\\")
 DISPLACEMENT_LIMIT = 240.0
 DISPLACEMENT, VOLUME = "displacement_vertical_max_m", "volume_per_area_m"
 LIMIT_COLOUR = "#BE0028"
+RESOLUTION = 160
+"""Dots per inch of the PNG files."""
+TITLE_POINTS = 72 * TITLE_SIZE / RESOLUTION
+"""Size of titles: as many pixels as those of the pictures of a design."""
 BAR_LABEL_SHARE = 0.2
 WHITE_BOX = {"facecolor": "white", "edgecolor": "none", "boxstyle": "square,pad=0.15"}
 STYLE = {
@@ -30,7 +35,7 @@ STYLE = {
     "axes.spines.right": False,
     "hatch.linewidth": 0.6,
     "svg.hashsalt": "foldshell",
-    "figure.dpi": 160,
+    "figure.dpi": RESOLUTION,
 }
 
 
@@ -65,7 +70,7 @@ def draw_comparison(
         title = describe_states(designs)
         figure.legend(handles, labels, loc="outside lower center", ncols=min(len(labels), 6),
                       frameon=False, title=title)  # fmt: skip
-        figure.suptitle(comparison.title, fontsize=16, fontweight="bold")
+        figure.suptitle(comparison.title, fontsize=TITLE_POINTS, fontweight="bold")
         return figure
 
 
@@ -83,7 +88,7 @@ def draw_histogram(axes: Axes, members: Mapping[str, StudyDesign], series: Seque
         if design.share is not None:
             axes.stairs(100 * design.share, edges, color=COLOURS[k % 5], linestyle=STYLES[k % 5],
                         linewidth=2.0, label=name)  # fmt: skip
-    axes.axvline(1.0, color=LIMIT_COLOUR, linewidth=1.5, label="limit")
+    axes.axvline(1.0, color=LIMIT_COLOUR, linewidth=1.5, label="limit: utilization 1")
     ticks = np.arange(0, UTILIZATION_END + 0.25, 0.5)
     axes.set_xticks(ticks, [f"{t:g}" if t < UTILIZATION_END else f"≥{t:g}" for t in ticks])
     axes.set_xlim(0, edges[-1])
@@ -94,7 +99,8 @@ def draw_limits(axes: Axes, members: Mapping[str, StudyDesign], span_over: float
     """Draw the limit of the displacement over the bar of each design."""
     for place, design in enumerate(members.values()):
         limit = 1e3 * design.number["span_m"] / span_over
-        axes.plot([place - 0.45, place + 0.45], [limit, limit], color=LIMIT_COLOUR, linewidth=1.5)
+        axes.plot([place - 0.45, place + 0.45], [limit, limit], color=LIMIT_COLOUR, linewidth=1.5,
+                  linestyle="--", label=f"limit: span / {span_over:g}")  # fmt: skip
 
 
 def draw_bars(
@@ -153,7 +159,7 @@ def draw_axes_comparison(designs: Sequence[StudyDesign]) -> Figure:
         axes[0].invert_yaxis()
         handles, labels = _legend(axes)
         figure.legend(handles, labels, loc="outside lower center", ncols=2, frameon=False)
-        figure.suptitle("Strong and weak axis", fontsize=16, fontweight="bold")
+        figure.suptitle("Strong and weak axis", fontsize=TITLE_POINTS, fontweight="bold")
         return figure
 
 
@@ -184,17 +190,17 @@ def save_figure(figure: Figure, paths: Sequence[str | Path]) -> None:
             kind = Path(path).suffix[1:]
             metadata = {"Date": None} if kind == "svg" else {"Software": None}
             with atomic_path(path) as temporary:
-                figure.savefig(temporary, format=kind, metadata=metadata, dpi=160)
+                figure.savefig(temporary, format=kind, metadata=metadata, dpi=RESOLUTION)
             figure.set_layout_engine("none")  # as found for the first file
     plt.close(figure)
 
 
 def _legend(axes: Sequence[Axes]) -> tuple[list, list[str]]:
-    """Return handles and labels of all axes, each label once, the limit last."""
+    """Return handles and labels of all axes, each label once, limits last."""
     found: dict[str, object] = {}
     for one in axes:
         for handle, label in zip(*one.get_legend_handles_labels(), strict=True):
             found.setdefault(label, handle)
-    if "limit" in found:
-        found["limit"] = found.pop("limit")
+    for label in [name for name in found if name.startswith("limit")]:
+        found[label] = found.pop(label)
     return list(found.values()), list(found)

@@ -8,22 +8,32 @@ import numpy as np
 
 from foldshell.figures.camera import STANDARD_DIRECTION
 from foldshell.figures.layout import INK, SOFT, Caption, Key
-from foldshell.figures.scene import Lines, Scene
-from foldshell.results.colour_scales import MISSING, ColourScale
+from foldshell.figures.scene import LIFT, Lines, Scene
+from foldshell.results.colour_scales import MISSING, ColourScale, round_step
 from foldshell.results.creases import cut_dashes
 from foldshell.results.design_view import DesignView, count_analyses
 
 DENSE = 350
 """Sheets of more panels get thinner lines, and fewer."""
 
+ZIGZAG, STRIP = (0, 81, 138), (200, 95, 0)
+"""Colours of the edges that a pattern has, as on calculation sheets."""
+EDGE_WIDTH = 4.0
+
 
 @dataclass(frozen=True)
 class FigureSpec:
-    """A scene with its words, before it is rendered; `direction` is that towards the eye."""
+    """A scene with its words, before it is rendered.
+
+    `direction` is that towards the eye, `marks` are places (3,) m with their words (a ring where
+    the flag says so), `close_up` a place, a radius m and a direction to look at it from.
+    """
 
     scene: Scene
     caption: Caption
     direction: tuple[float, float, float] = STANDARD_DIRECTION
+    marks: tuple[tuple[np.ndarray, str, bool], ...] = ()
+    close_up: tuple[np.ndarray, float, tuple[float, float, float]] | None = None
 
 
 def specify_field(
@@ -51,9 +61,7 @@ def specify_field(
     )  # fmt: skip
     all_keys = (*line_keys, *keys, Key("support", "pinned edges"))
     words = (facts, describe_verdict(state.report))
-    return FigureSpec(
-        scene, Caption(f"{title}: {state.name}", words, quantity, scale, above, all_keys)
-    )
+    return FigureSpec(scene, Caption(title, words, quantity, scale, above, all_keys, state.name))
 
 
 def specify_nothing(view: DesignView, title: str, words: str) -> FigureSpec:
@@ -64,7 +72,7 @@ def specify_nothing(view: DesignView, title: str, words: str) -> FigureSpec:
     scene = Scene(state.cells.nodes, state.triangles, colours, lines, *support_marks(view))
     verdict = describe_verdict(state.report)
     keys = (*keys, Key("support", "pinned edges"))
-    return FigureSpec(scene, Caption(f"{title}: {state.name}", (words, verdict), keys=keys))
+    return FigureSpec(scene, Caption(title, (words, verdict), keys=keys, name=state.name))
 
 
 def describe_verdict(report: Mapping[str, Any]) -> str:
@@ -107,3 +115,32 @@ def lines_before(view: DesignView) -> Lines:
     if len(view.state.final["thickness"]) <= DENSE:
         kinds += [creases.mountain, creases.valley, creases.flat]
     return Lines(view.state.cells.nodes[np.concatenate(kinds)], (150, 150, 150), 1.5, 0.0)
+
+
+def edge_lines(view: DesignView) -> tuple[tuple[Lines, ...], tuple[Key, ...]]:
+    """Return zig-zag edges and strip edges in colours of their own, wide, and their keys."""
+    folded, vertices = view.state.folded, view.state.shell["vertices"]
+    lines, keys = [], []
+    for kind, other, words, colour in (("zigzag", "strip", "zig-zag edge", ZIGZAG),
+                                       ("strip", "zigzag", "strip edge", STRIP)):  # fmt: skip
+        index = folded[kind]
+        for border in (index.min(), index.max()):
+            nodes = np.flatnonzero(index == border)
+            nodes = nodes[np.argsort(folded[other][nodes])]
+            lines.append(Lines(vertices[nodes][None], colour, EDGE_WIDTH, 1.2 * LIFT))
+        keys.append(Key("solid", words, colour))
+    return tuple(lines), tuple(keys)
+
+
+def scale_bar(view: DesignView) -> tuple[Lines, tuple[np.ndarray, str, bool]]:
+    """Return a bar of a round length along x, in front of the sheet at its lowest level, and the
+    mark (place (3,) m, words, no ring) that says its length."""
+    nodes = view.state.cells.nodes
+    low, size = nodes.min(axis=0), np.ptp(nodes, axis=0)
+    length = round_step(size[0] / 5)
+    start = low - (0, 0.08 * size[1], 0)
+    tip = 0.012 * view.size
+    along, up = np.array([length, 0, 0]), np.array([0, 0, tip])
+    parts = np.array([[start, start + along], [start - up, start + up],
+                      [start + along - up, start + along + up]])  # fmt: skip
+    return Lines(parts, INK, 4.0), (start + along, f"{length:g} m", False)

@@ -14,6 +14,10 @@ from foldshell.results.colour_scales import ABOVE, ColourScale, find_ticks, form
 
 INK = (20, 20, 20)
 SOFT = (90, 90, 90)
+TITLE_SIZE = 46
+"""Height of titles, pixels of a picture 1200 high."""
+KEYS_MAX = 4
+"""Entries of a legend below which it need not be narrowed."""
 LINES_MAX = 3
 """Lines of words that fit between the title and the view."""
 
@@ -30,7 +34,9 @@ class Key:
 @dataclass(frozen=True)
 class Caption:
     """All words of a picture; `quantity`, with its unit, stands over the colour bar, or alone
-    where `scale` is None."""
+    where `scale` is None. `name` is that of the design; `ends` are the least and the largest value,
+    which the bar marks with their words; `swatches` stand in place of a bar for colours that are
+    no scale."""
 
     title: str
     lines: Sequence[str]
@@ -38,6 +44,18 @@ class Caption:
     scale: ColourScale | None = None
     above: str = ""
     keys: Sequence[Key] = ()
+    name: str = ""
+    ends: Sequence[tuple[float, str]] = ()
+    swatches: Sequence[Key] = ()
+
+
+@dataclass(frozen=True)
+class Note:
+    """Words at a place of the view, right and down in pixels; a ring marks the place itself."""
+
+    place: tuple[float, float]
+    words: str
+    ring: bool = True
 
 
 def view_size(size: tuple[int, int]) -> tuple[int, int]:
@@ -46,35 +64,80 @@ def view_size(size: tuple[int, int]) -> tuple[int, int]:
 
 
 def compose(
-    view: np.ndarray, caption: Caption, axes: np.ndarray, size: tuple[int, int]
+    view: np.ndarray,
+    caption: Caption,
+    axes: np.ndarray,
+    size: tuple[int, int],
+    notes: Sequence[Note] = (),
+    inset: np.ndarray | None = None,
 ) -> Image.Image:
     """Return the picture: words above the view, colour bar and legend below it.
 
-    `axes` (3, 2) is how unit vectors x, y, z look: right and up.
+    `view` (h, w, 3) and `inset`, a close-up for its upper right corner, are images; `axes` (3, 2)
+    is how unit vectors x, y, z look: right and up.
     """
-    width, height = size
-    unit = height / 1200
+    unit = size[1] / 1200
     picture = Image.new("RGB", size, "white")
-    top = round(0.165 * height)
+    top, left = round(0.165 * size[1]), round(40 * unit)
     picture.paste(Image.fromarray(view), (0, top))
     pen = ImageDraw.Draw(picture)
-    left = round(40 * unit)
-    pen.text((left, round(22 * unit)), caption.title, INK, fit_font(caption.title, 46 * unit,
-             width - 2 * left, bold=True))  # fmt: skip
+    if inset is not None:
+        _paste_inset(picture, inset, top, unit)
+    _write_head(pen, caption, size[0], unit)
+    base = top + view.shape[0]
+    _draw_axes(pen, (left + 75 * unit, base - 75 * unit), axes, unit)
+    for note in notes:
+        _write_note(pen, note, top, size[0], unit)
+    if caption.scale is not None:
+        box = (left, base + round(62 * unit), round(0.60 * size[0]), base + round(102 * unit))
+        draw_bar(picture, box, caption, unit)
+    else:
+        font = load_font(round(28 * unit))
+        for k, line in enumerate(wrap(caption.quantity, font, 0.58 * size[0])):
+            pen.text((left, base + round((12 + 37 * k) * unit)), line, INK, font)
+    for k in range(0, len(caption.swatches), KEYS_MAX):
+        corner = left + round(460 * unit) * (k // KEYS_MAX), base + round(8 * unit)
+        _draw_keys(pen, corner, caption.swatches[k : k + KEYS_MAX], unit)
+    _draw_keys(pen, (round(0.66 * size[0]), base + round(8 * unit)), caption.keys, unit)
+    return picture
+
+
+def _write_head(pen: ImageDraw.ImageDraw, caption: Caption, width: int, unit: float) -> None:
+    """Write the title, always of the same size, the name at the right of it, and the words."""
+    left, large = round(40 * unit), load_font(round(TITLE_SIZE * unit), True)
+    pen.text((left, round(22 * unit)), caption.title, INK, large)
+    room = width - 3 * left - large.getlength(caption.title)
+    name = fit_font(caption.name, 34 * unit, room)
+    pen.text((width - left, round(64 * unit)), caption.name, SOFT, name, anchor="rs")
     font = load_font(round(28 * unit))
     words = [part for line in caption.lines for part in wrap(line, font, width - 2 * left)]
     for k, line in enumerate(words[:LINES_MAX]):
         pen.text((left, round((84 + 37 * k) * unit)), line, INK, font)
-    base = top + view.shape[0]
-    _draw_axes(pen, (left + 75 * unit, base - 75 * unit), axes, unit)
-    if caption.scale is not None:
-        box = (left, base + round(62 * unit), round(0.60 * width), base + round(102 * unit))
-        draw_bar(picture, box, caption, unit)
-    else:
-        for k, line in enumerate(wrap(caption.quantity, font, 0.58 * width)):
-            pen.text((left, base + round((12 + 37 * k) * unit)), line, INK, font)
-    _draw_keys(pen, (round(0.66 * width), base + round(8 * unit)), caption.keys, unit)
-    return picture
+
+
+def _paste_inset(picture: Image.Image, inset: np.ndarray, top: int, unit: float) -> None:
+    height, width = inset.shape[:2]
+    x = picture.width - width - round(16 * unit)
+    picture.paste(Image.fromarray(inset), (x, top))
+    pen = ImageDraw.Draw(picture)
+    pen.rectangle((x, top, x + width, top + height), outline=SOFT, width=max(1, round(3 * unit)))
+    font = load_font(round(26 * unit))
+    pen.text((x + 12 * unit, top + 8 * unit), "close-up", INK, font,
+             stroke_width=round(4 * unit), stroke_fill="white")  # fmt: skip
+
+
+def _write_note(pen: ImageDraw.ImageDraw, note: Note, top: int, width: int, unit: float) -> None:
+    """Write words beside a place, on the side that has room."""
+    x, y = note.place[0], note.place[1] + top
+    font, radius = load_font(round(28 * unit)), 13 * unit
+    if note.ring:
+        box = (x - radius, y - radius, x + radius, y + radius)
+        pen.ellipse(box, outline="white", width=round(9 * unit))
+        pen.ellipse(box, outline=ABOVE, width=round(5 * unit))
+    right = x + 24 * unit + font.getlength(note.words) < width
+    place = (x + 22 * unit, y) if right else (x - 22 * unit, y)
+    pen.text(place, note.words, INK, font, anchor="lm" if right else "rm",
+             stroke_width=round(4 * unit), stroke_fill="white")  # fmt: skip
 
 
 def save_png(path: str | Path, picture: Image.Image) -> None:
@@ -122,7 +185,11 @@ def draw_bar(picture: Image.Image, box: tuple[int, ...], caption: Caption, unit:
     band = np.broadcast_to(ramp, (bottom - top, *ramp.shape))
     picture.paste(Image.fromarray(np.ascontiguousarray(band)), (left, top))
     words = fit_font(caption.quantity, 32 * unit, right - left)
-    pen.text((left, top - round(12 * unit)), caption.quantity, INK, words, anchor="ls")
+    rise = 44 if caption.ends else 12
+    pen.text((left, top - round(rise * unit)), caption.quantity, INK, words, anchor="ls")
+    for value, text in caption.ends:
+        x = left + (value - scale.low) / (scale.high - scale.low) * (end - 1 - left)
+        _mark_end(pen, (x, top), text, (left, end), unit)
     ticks = find_ticks(scale.low, scale.high)
     step = ticks[1] - ticks[0] if len(ticks) > 1 else scale.high - scale.low
     font = load_font(round(30 * unit))
@@ -141,6 +208,22 @@ def draw_bar(picture: Image.Image, box: tuple[int, ...], caption: Caption, unit:
     pen.rectangle((left, top, right, bottom), outline=INK, width=max(1, round(2 * unit)))
 
 
+def _mark_end(
+    pen: ImageDraw.ImageDraw,
+    place: tuple[float, float],
+    text: str,
+    room: tuple[float, float],
+    unit: float,
+) -> None:
+    """Point at a value of the bar from above, with its words, which stay over the bar."""
+    (x, top), half = place, 9 * unit
+    pen.polygon([(x, top), (x - half, top - 15 * unit), (x + half, top - 15 * unit)], INK)
+    font = load_font(round(25 * unit))
+    wide = font.getlength(text) / 2
+    middle = min(max(x, room[0] + wide), room[1] - wide)
+    pen.text((middle, top - 18 * unit), text, INK, font, anchor="ms")
+
+
 def _draw_axes(pen: ImageDraw.ImageDraw, centre: tuple[float, float], axes, unit: float) -> None:
     """Draw the directions x, y, z as they appear in the view."""
     x, y = centre
@@ -154,7 +237,7 @@ def _draw_keys(
     pen: ImageDraw.ImageDraw, corner: tuple[int, int], keys: Sequence[Key], unit: float
 ) -> None:
     x, y = corner
-    length, height = round(70 * unit), round(37 * unit)
+    length, height = round(70 * unit), round(min(37, 37 * KEYS_MAX / max(len(keys), 1)) * unit)
     font = load_font(round(29 * unit))
     for key in keys:
         middle = y + height / 2

@@ -1,6 +1,7 @@
 """Pictures of how a design carries: principal stress lines, utilization isolines, buckling mode."""
 
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 
@@ -26,14 +27,18 @@ from foldshell.results.colour_scales import (
 from foldshell.results.design_view import DesignView
 from foldshell.results.fields import choose_buckling
 from foldshell.results.isolines import utilization_isolines
-from foldshell.results.principal_stress_lines import split_lines
+from foldshell.results.line_spacing import split_lines
 
 PAPER = (240, 240, 236)
-WIDTHS = ((0.04, 1.5), (0.2, 3.0), (0.5, 5.0))
-"""Least share of the large forces, and width in pixels of the lines from there on."""
+FORCE_STEPS = (0.03, 0.08, 0.16, 0.3, 0.5, 0.75)
+"""Shares of the large forces from which on lines are drawn one step wider."""
+WIDTH_STEP = 1.3
+"""Width of the thinnest lines, and how much wider each step is, pixels."""
 LARGE_PERCENTILE = 95.0
 FORCE_MIN = 1e-6
 """Membrane forces below this, kN/m, are rounding errors."""
+CLOSE_UP = 0.09
+"""Radius of what a close-up shows, as a share of the sheet's diagonal."""
 MODE_SHARE = 0.05
 """A buckling mode is drawn this share of the span large."""
 
@@ -54,19 +59,24 @@ def specify_principal_stress_lines(view: DesignView) -> FigureSpec:
     keys = [Key("solid", "tension", TENSION), Key("solid", "compression", COMPRESSION)]
     order = "" if state.report.get("state") in ("ok", None) else "first-order "
     facts = f"trajectories of the principal {order}membrane forces of {name}, across the folds"
-    bounds = ", ".join(f"{share * large:.0f}" for share, _ in WIDTHS)
-    classes = f"Thin, medium, thick lines: more than {bounds} kN/m. Weaker forces are left out."
+    least, most = (format_force(share * large) for share in (FORCE_STEPS[0], FORCE_STEPS[-1]))
+    classes = f"Width by force: from {least} kN/m to {most} kN/m and more. Weaker is left out."
     lines = _by_force(segments, force, large)
     return _specify_lines(view, "Principal stress lines", facts, classes, lines, keys)
 
 
+def format_force(value: float) -> str:
+    """Return a force with two digits, or as a whole number."""
+    return f"{value:.2g}" if value < 10 else f"{value:.0f}"
+
+
 def _by_force(segments: np.ndarray, force: np.ndarray, large: float) -> list[Lines]:
     lines = []
-    bounds = [share for share, _ in WIDTHS] + [np.inf]
+    bounds = [*FORCE_STEPS, np.inf]
     for colour, sign in ((COMPRESSION, -1), (TENSION, 1)):
-        for (share, width), end in zip(WIDTHS, bounds[1:], strict=True):
-            chosen = (sign * force >= share * large) & (sign * force < end * large)
-            lines.append(Lines(segments[chosen], colour, width))
+        for step, (low, high) in enumerate(pairwise(bounds), start=1):
+            chosen = (sign * force >= low * large) & (sign * force < high * large)
+            lines.append(Lines(segments[chosen], colour, WIDTH_STEP * step))
     return lines
 
 
@@ -104,11 +114,28 @@ def specify_buckling(view: DesignView) -> FigureSpec:
     values = np.linalg.norm(mode, axis=1)
     spec = specify_field(
         view, "Buckling mode", facts, "translation / largest [-]", values,
-        make_scale(np.array([0.0, 1.0]), "cividis"),
+        make_scale(np.array([0.0, 1.0]), "YlGnBu"),
         points=state.cells.nodes + MODE_SHARE * view.span * mode, extra=(before,),
         keys=(Key("solid", "undisplaced", before.colour),),
     )  # fmt: skip
-    return replace(spec, direction=look_at(state.cells.nodes, state.cells.nodes[values.argmax()]))
+    place = state.cells.nodes[values.argmax()]
+    direction = look_at(state.cells.nodes, place)
+    close_up = place, CLOSE_UP * view.size, face_panel(view, int(values.argmax()), direction)
+    return replace(spec, direction=direction, close_up=close_up, marks=((place, "largest", True),))
+
+
+def face_panel(
+    view: DesignView, node: int, direction: tuple[float, float, float]
+) -> tuple[float, float, float]:
+    """Return a direction from which the cells about a node are seen, near a given one."""
+    cells = view.state.triangles[(view.state.triangles == node).any(axis=1)]
+    corner = view.state.cells.nodes[cells]
+    normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    normal /= np.linalg.norm(normal, axis=1, keepdims=True)
+    wanted = np.asarray(direction) / np.linalg.norm(direction)
+    sides = np.where((normal @ wanted < 0)[:, None], -normal, normal)
+    found = sides[np.argmax(sides @ wanted)] + 0.6 * wanted
+    return tuple((found / np.linalg.norm(found)).tolist())
 
 
 def _specify_lines(
@@ -124,4 +151,4 @@ def _specify_lines(
     )
     words = (facts, describe_verdict(state.report))
     keys = [*keys, Key("support", "pinned edges", INK)]
-    return FigureSpec(scene, Caption(f"{title}: {state.name}", words, classes, keys=keys))
+    return FigureSpec(scene, Caption(title, words, classes, keys=keys, name=state.name))

@@ -10,7 +10,7 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 from foldshell.figures.camera import Camera
-from foldshell.figures.scene import AMBIENT, DIFFUSE, SUPPORT_COLOUR, Lines, Scene
+from foldshell.figures.scene import AMBIENT, DIFFUSE, LIFT, SUPPORT_COLOUR, Lines, Scene
 
 OVERSAMPLING = 2
 
@@ -92,7 +92,7 @@ def _segments(
     places = to_pixels(camera, points, size).reshape(count, length, 2)
     pairs = np.concatenate([places[:, :-1], places[:, 1:]], axis=2).reshape(-1, 4)
     distance = np.linalg.norm(points - camera.eye, axis=1).reshape(count, length)
-    nearer = step if lines.lift > 0 else 0.0
+    nearer = step * max(1.0, lines.lift / LIFT) if lines.lift > 0 else 0.0
     depth = ((distance[:, :-1] + distance[:, 1:]) / 2).ravel() - nearer
     width = max(1, round(OVERSAMPLING * lines.width * 0.8))
     return depth.tolist(), [(pair, lines.colour, width) for pair in pairs.tolist()]

@@ -1,6 +1,7 @@
 """The pictures of one design (Fig. 7 of Tsiamis et al. 2018): what each shows and says."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 
 import numpy as np
 from PIL import Image
@@ -9,11 +10,13 @@ from foldshell.figures.camera import Camera, fit_camera
 from foldshell.figures.figure_specs import (
     DENSE,
     FigureSpec,
+    edge_lines,
     lines_before,
+    scale_bar,
     specify_field,
     specify_nothing,
 )
-from foldshell.figures.layout import INK, Key, compose, view_size
+from foldshell.figures.layout import INK, Key, Note, compose, view_size
 from foldshell.figures.load_path_figures import (
     specify_buckling,
     specify_isolines,
@@ -23,7 +26,9 @@ from foldshell.figures.render import render_scenes
 from foldshell.figures.scene import LIFT, Lines
 from foldshell.results.colour_scales import (
     ABOVE,
+    MISSING,
     RATIO_RANGE_MIN,
+    ColourScale,
     exaggeration,
     make_limit_scale,
     make_scale,
@@ -33,6 +38,10 @@ from foldshell.results.fields import choose_deflection
 from foldshell.results.isolines import find_region_border
 from foldshell.results.state import DesignState
 
+INSET = (0.32, 0.3)
+"""Size of a close-up, as shares of the picture's."""
+UPWARD_MIN = 0.05
+"""Share of the largest downward displacement from which on an upward one is marked too."""
 LIMIT_WIDTH = 3.5
 """Width of the line about cells above the limit, so that they show in grey too, pixels."""
 
@@ -42,13 +51,49 @@ def draw_design(
 ) -> dict[str, Image.Image]:
     """Return the named pictures (`PICTURES`) of a design, each of the given size in pixels."""
     specs = {name: PICTURES[name](view) for name in names}
-    frame = view_size(size)
-    cameras = [_aim(spec, frame) for spec in specs.values()]
-    images = render_scenes([spec.scene for spec in specs.values()], cameras, frame)
+    whole, beside = view_size(size), (round((1 - INSET[0]) * size[0]), view_size(size)[1])
+    frames = {name: beside if spec.close_up else whole for name, spec in specs.items()}
+    cameras = {name: _aim(spec, frames[name]) for name, spec in specs.items()}
+    images = {}
+    for frame in (whole, beside):
+        chosen = [name for name in specs if frames[name] == frame]
+        scenes, eyes = [specs[name].scene for name in chosen], [cameras[name] for name in chosen]
+        images |= dict(zip(chosen, render_scenes(scenes, eyes, frame), strict=True))
+    insets = _draw_close_ups(specs, size)
     return {
-        name: compose(image, spec.caption, camera.axes()[:2].T, size)
-        for (name, spec), image, camera in zip(specs.items(), images, cameras, strict=True)
-    }
+        name: compose(
+            images[name], spec.caption, cameras[name].axes()[:2].T, size,
+            _place_notes(spec, cameras[name], frames[name]), insets.get(name),
+        )
+        for name, spec in specs.items()
+    }  # fmt: skip
+
+
+def _place_notes(spec: FigureSpec, camera: Camera, frame: tuple[int, int]) -> list[Note]:
+    """Return the marks of a figure at the pixels where the camera sees them."""
+    notes = []
+    for point, words, ring in spec.marks:
+        right, up = camera.project(np.asarray(point, dtype=float)[None])[0]
+        place = frame[0] / 2 + right * frame[1] / 2, frame[1] / 2 - up * frame[1] / 2
+        notes.append(Note(place, words, ring))
+    return notes
+
+
+def _draw_close_ups(
+    specs: Mapping[str, FigureSpec], size: tuple[int, int]
+) -> dict[str, np.ndarray]:
+    """Return an image of what is about the place of each figure that has a close-up."""
+    chosen = {name: spec for name, spec in specs.items() if spec.close_up is not None}
+    inset = round(0.95 * INSET[0] * size[0]), round(INSET[1] * size[1])
+    cameras = []
+    for spec in chosen.values():
+        place, radius, direction = spec.close_up
+        corners = place + radius * np.array([[1, 0, 0], [-1, 0, 0], [0, 1, 0], [0, -1, 0],
+                                             [0, 0, 1], [0, 0, -1]])  # fmt: skip
+        cameras.append(fit_camera(corners, inset[0] / inset[1], direction))
+    scenes = [spec.scene for spec in chosen.values()]
+    images = render_scenes(scenes, cameras, inset) if chosen else []
+    return dict(zip(chosen, images, strict=True))
 
 
 def _aim(spec: FigureSpec, frame: tuple[int, int]) -> Camera:
@@ -70,9 +115,14 @@ def specify_thickness(view: DesignView) -> FigureSpec:
         f"{least if least == most else f'{least} to {most}'} mm{_describe_edge_beam(state)}; "
         f"volume {volume:.4g} m³, {1e3 * volume / area:.0f} mm on average"
     )
-    return specify_field(
-        view, "Thickness", facts, "thickness [mm]", values[state.cell_panel], scale
-    )
+    x, y, z = np.ptp(state.cells.nodes, axis=0)
+    facts += f"; plan {x:.1f} m by {y:.1f} m, {z:.1f} m high"
+    (edges, keys), (bar, length) = edge_lines(view), scale_bar(view)
+    spec = specify_field(
+        view, "Thickness", facts, "thickness [mm]", values[state.cell_panel], scale,
+        extra=(*edges, bar), keys=keys,
+    )  # fmt: skip
+    return replace(spec, marks=(length,))
 
 
 def _describe_edge_beam(state: DesignState) -> str:
@@ -82,20 +132,26 @@ def _describe_edge_beam(state: DesignState) -> str:
 
 
 def specify_classes(view: DesignView) -> FigureSpec:
-    """Panels coloured by the thickness of their class, on the scale of the picture thickness."""
-    state = view.state
+    """Panels by the class of their thickness, each class in one colour."""
+    state, title = view.state, "Thickness classes"
     if not state.classes:
-        return specify_nothing(view, "Thickness classes", "no thickness classes")
-    number = state.classes["panel_class"]
-    panels = 1e3 * state.classes["thickness"]
-    words = [
-        f"{k}: {panels[number == k].max():.1f} mm in {(number == k).sum()} panels"
-        for k in np.unique(number)
-    ]
-    values = np.append(panels, 1e3 * state.edge_beam_thickness)
-    scale = make_scale(np.append(values, 1e3 * state.final["thickness"]), "YlGnBu")
-    title, quantity = "Thickness classes", "thickness of the class [mm]"
-    return specify_field(view, title, "; ".join(words), quantity, values[state.cell_panel], scale)
+        return specify_nothing(view, title, "no thickness classes")
+    number, thickness = state.classes["panel_class"], 1e3 * state.classes["thickness"]
+    found = np.unique(number)
+    rank = np.searchsorted(found, number).astype(float)
+    scale = ColourScale(-0.5, len(found) - 0.5, "YlGnBu")
+    swatches = [
+        Key("area", f"{k}: {thickness[number == k].max():.1f} mm, {(number == k).sum()} panels",
+            tuple(scale.colour(np.array(float(place))).tolist()))
+        for place, k in enumerate(found)
+    ]  # fmt: skip
+    values = np.append(rank, np.full(len(state.edge_beam_thickness), np.nan))
+    if len(state.edge_beam_thickness):
+        words = f"edge beam: {1e3 * state.edge_beam_thickness.max():.1f} mm"
+        swatches.append(Key("area", words, MISSING))
+    facts = f"{len(found)} {'thickness' if len(found) == 1 else 'thicknesses'} to build with"
+    spec = specify_field(view, title, facts, "", values[state.cell_panel], scale)
+    return replace(spec, caption=replace(spec.caption, scale=None, swatches=swatches))
 
 
 def specify_utilization(view: DesignView) -> FigureSpec:
@@ -140,13 +196,17 @@ def specify_displacement(view: DesignView) -> FigureSpec:
         f"{name}: {order}at most {down.max():.1f} mm down (limit {limit:.1f} mm); "
         f"drawn {factor:g} times as large"
     )
-    quantity = "vertical displacement, down [mm]"
-    before = lines_before(view)
-    return specify_field(
-        view, "Displacement", facts, quantity, down, make_scale(down, "cividis"),
-        points=state.cells.nodes + factor * moved, extra=(before,),
+    before, points = lines_before(view), state.cells.nodes + factor * moved
+    spec = specify_field(
+        view, "Displacement", facts, "vertical displacement, down [mm]", down,
+        make_scale(down, "YlGnBu"), points=points, extra=(before,),
         keys=(Key("solid", "undisplaced", before.colour),),
     )  # fmt: skip
+    ends = [(float(value), f"{value:.1f}") for value in (down.min(), down.max())]
+    marks = [(points[down.argmax()], f"{down.max():.1f} mm down", True)]
+    if down.min() < -UPWARD_MIN * down.max():
+        marks.append((points[down.argmin()], f"{-down.min():.1f} mm up", True))
+    return replace(spec, caption=replace(spec.caption, ends=ends), marks=tuple(marks))
 
 
 def specify_planarity(view: DesignView) -> FigureSpec:

@@ -7,7 +7,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from foldshell.figures.charts import LIMIT_COLOUR, STYLE, draw_words
+from foldshell.figures.charts import LIMIT_COLOUR, STYLE, TITLE_POINTS, draw_words
 from foldshell.figures.study_data import StudyDesign
 from foldshell.results.comparisons import UNFOLDED, choose_panel_surfaces
 from foldshell.results.correlation import rank_correlation
@@ -43,7 +43,7 @@ def draw_planarity_chart(designs: Sequence[StudyDesign]) -> Figure:
         figure.colorbar(shown, ax=axes, label="panels", pad=0.01)
         handles, labels = axes[0, 0].get_legend_handles_labels()
         figure.legend(handles, labels, loc="outside lower center", frameon=False)
-        figure.suptitle("Planarity and utilization", fontsize=16, fontweight="bold")
+        figure.suptitle("Planarity and utilization", fontsize=TITLE_POINTS, fontweight="bold")
         return figure
 
 

@@ -5,6 +5,8 @@
 const byId = (id) => document.getElementById(id);
 const { columns, designs } = JSON.parse(byId("study-data").textContent);
 const cards = designs.map((design) => byId("card-" + design.name));
+const first = byId("picture").options[0].value; // this one stands in the page, not in the data
+designs.forEach((design, k) => { design.pictures[first] = cards[k].querySelector("img").src; });
 const rows = [...document.querySelectorAll("#summary tbody tr")];
 const shown = designs.map(() => true);
 const listeners = []; // called when other designs are shown

@@ -176,4 +176,4 @@ function startCharts() {
   drawScatter();
 }
 
-if (numeric.length) startCharts();
+if (numeric.length) requestAnimationFrame(() => setTimeout(startCharts)); // after the first view

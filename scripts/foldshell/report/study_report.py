@@ -120,7 +120,8 @@ def write_study_report(
         settings=list_settings(settings),
         study_hash=hash_study([entry.row for entry in files.designs]),
         provenance=provenance,
-        data={"columns": [asdict(column) for column in columns], "designs": cards},
+        data={"columns": [asdict(column) for column in columns],
+              "designs": [_leave_out_first_picture(card) for card in cards]},
         to_results=to_results,
     )  # fmt: skip
     if len(page.encode()) > SIZE_MAX:
@@ -144,6 +145,12 @@ def _make_card(
         "tags": [tag for tag in entry.row["tags"].split(",") if tag],
         "pictures": {name: sheet["pictures"].get(entry.name, "") for name, sheet in tiles.items()},
     }
+
+
+def _leave_out_first_picture(card: Mapping[str, Any]) -> dict[str, Any]:
+    """Return a card without the picture that its page shows already, which is large."""
+    pictures = dict(list(card["pictures"].items())[1:])
+    return {**card, "pictures": pictures}
 
 
 def describe_kinds(rows: Sequence[Mapping[str, str]]) -> str:

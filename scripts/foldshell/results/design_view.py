@@ -38,7 +38,7 @@ class DesignView:
     @cached_property
     def principal_stress_lines(self) -> tuple[str, list[PrincipalStressLine]]:
         """The combination that governs most, and both families of lines under it."""
-        state, spacing, step = self.state, self.size / 60, self.size / 150
+        state, spacing, step = self.state, self.size / 75, self.size / 150
         name = choose_strength(state)
         stiffness = (self.material.youngs_modulus, self.material.poissons_ratio)
         coefficients, geometry = membrane_force_coefficients(state, name, *stiffness)

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from foldshell.results.line_spacing import PrincipalStressLine, thin_out
 from foldshell.shell.element import ElementGeometry
 from foldshell.shell.mesh import ShellMesh
 from foldshell.shell.reference import EDGES, lattice_points, orthonormal_basis
@@ -24,8 +25,8 @@ WINDING_MAX = 1.25 * np.pi
 """Angle after which a line that turns one way has come round and ends."""
 STARTS_MAX = 800
 """Elements in which lines start; of finer meshes every second, third, ... is taken."""
-SPACINGS_MIN = 3.5
-"""Least length of a line, in spacings."""
+SMOOTH = 0.8
+"""Cosine of a turn at a fold below which a line looks at the other principal direction too."""
 
 
 @dataclass(frozen=True)
@@ -83,15 +84,6 @@ def monomials(degree: int, place: np.ndarray) -> np.ndarray:
     return first[:, i] * second[:, j]
 
 
-@dataclass(frozen=True)
-class PrincipalStressLine:
-    """Points (n, 3) m of one line and the force (n,) kN/m at them; family 0 or 1."""
-
-    points: np.ndarray
-    force: np.ndarray
-    family: int
-
-
 def barycentric(place: np.ndarray) -> np.ndarray:
     """Return (K, 3) of reference coordinates (K, 2). Without unit."""
     return np.column_stack([1 - place.sum(axis=1), place])
@@ -104,12 +96,14 @@ def trace_principal_stress_lines(
     step: float,
     steps_max: int = 300,
 ) -> list[PrincipalStressLine]:
-    """Return lines of the families, those of each about `spacing` m apart, longest first.
+    """Return lines of the families, those of each about `spacing` m apart, strongest first.
 
     A line starts in the middle of elements, `STARTS_MAX` at most, both ways, in steps of at most
-    `step` m. It ends at a border, where the direction turns by more than 70 degrees at a fold,
-    where the principal forces are equal, where it has come round, or after `steps_max` steps.
-    Where it comes into a box of side `spacing` that a longer line has passed, it is cut.
+    `step` m. At a fold it takes the principal direction of its own family, or the other one where
+    that is nearer and pulls or pushes as it did. It ends at a border, where the direction turns by
+    more than 70 degrees, where the principal forces are equal, where it has come round, after
+    `steps_max` steps, or where it comes close to a stronger line. None starts close to another:
+    Jobard and Lefer, Creating evenly-spaced streamlines of arbitrary density (1997).
     """
     elements = len(field.mesh.elements)
     start = np.arange(0, elements, -(-elements // STARTS_MAX))
@@ -117,6 +111,7 @@ def trace_principal_stress_lines(
     element = np.tile(start, 2 * number)
     family = np.tile(np.repeat(families, count), 2)
     sense = np.repeat([1.0, -1.0], number * count)
+    named = family.copy()  # a line may go over to the other family on its way
     points, forces, lengths = _walk(field, family, element, sense, step, steps_max)
     lines: dict[int, list[PrincipalStressLine]] = {name: [] for name in families}
     for k in range(number * count):
@@ -124,7 +119,8 @@ def trace_principal_stress_lines(
         back, ahead = slice(lengths[other] - 1, 0, -1), slice(0, lengths[k])
         whole = np.concatenate([points[back, other], points[ahead, k]])
         force = np.concatenate([forces[back, other], forces[ahead, k]])
-        lines[int(family[k])].append(PrincipalStressLine(whole, force, int(family[k])))
+        line = PrincipalStressLine(whole, force, int(named[k]), max(int(lengths[other]) - 1, 0))
+        lines[line.family].append(line)
     return [line for found in lines.values() for line in thin_out(found, spacing)]
 
 
@@ -144,7 +140,7 @@ def _walk(field, family, element, sense, step, steps_max):
             break
         here = _step(field, family[active], neighbour, element[active], place[active],
                      direction[active], step)  # fmt: skip
-        going, element[active], place[active], direction[active], value, turn = here
+        going, element[active], place[active], direction[active], family[active], value, turn = here
         winding[active] += turn
         going &= np.abs(winding[active]) < WINDING_MAX
         points.append(points[-1].copy())
@@ -168,11 +164,12 @@ def _step(field, family, neighbour, element, place, direction, step):
     direction = after
     out = np.flatnonzero(edge >= 0)
     crossed = _cross(
-        field, family[out], neighbour, element[out], place[out], direction[out], edge[out]
-    )
-    goes_on, element[out], place[out], direction[out] = crossed
+        field, family[out], neighbour, element[out], place[out], direction[out], edge[out],
+        value[out],
+    )  # fmt: skip
+    goes_on, element[out], place[out], direction[out], family[out] = crossed
     going[out] &= goes_on
-    return going, element, place, direction, value, turn
+    return going, element, place, direction, family, value, turn
 
 
 def _advance(field, element, place, direction, step):
@@ -189,7 +186,7 @@ def _advance(field, element, place, direction, step):
     return place, np.where(met, (corner + 1) % 3, -1)
 
 
-def _cross(field, family, neighbour, element, place, direction, edge):
+def _cross(field, family, neighbour, element, place, direction, edge, force):
     """Turn lines about the edge into the neighbour; tell which of them go on."""
     row = np.arange(len(element))
     normal = field.geometry.edge_normal[element, edge]
@@ -206,9 +203,7 @@ def _cross(field, family, neighbour, element, place, direction, edge):
     bary[row, EDGES[gate, 0]] = share
     bary[row, EDGES[gate, 1]] = 1 - share
     entry = bary[:, 1:]
-    _, principal, _ = field.principal(target, entry, family)
-    principal = _align(principal, turned)
-    cosine = np.einsum("ka,ka->k", principal, turned)
+    family, principal, cosine = _choose_family(field, family, target, entry, turned, force)
     inward = -np.einsum("ka,ka->k", principal, new_normal)
     going = exists & (cosine > TURN_MIN) & (inward > 1e-6)
     keep = going[:, None]
@@ -217,6 +212,23 @@ def _cross(field, family, neighbour, element, place, direction, edge):
         np.where(going, target, element),
         np.where(keep, entry, place),
         np.where(keep, principal, direction),
+        family,
+    )
+
+
+def _choose_family(field, family, element, place, direction, force):
+    """Return family, direction and cosine of the turn with which lines go on beyond a fold."""
+    found = []
+    for one in (family, 1 - family):
+        value, principal, _ = field.principal(element, place, one)
+        principal = _align(principal, direction)
+        found.append((value, principal, np.einsum("ka,ka->k", principal, direction)))
+    (_, own, cosine), (value, other, other_cosine) = found
+    change = (cosine < SMOOTH) & (other_cosine > cosine) & (value * force > 0)
+    return (
+        np.where(change, 1 - family, family),
+        np.where(change[:, None], other, own),
+        np.where(change, other_cosine, cosine),
     )
 
 
@@ -250,43 +262,3 @@ def find_neighbours(mesh: ShellMesh) -> np.ndarray:
     neighbour = np.stack([other // 3, other % 3], axis=1)
     neighbour[other < 0] = -1
     return neighbour.reshape(-1, 3, 2)
-
-
-def thin_out(lines: list[PrincipalStressLine], spacing: float) -> list[PrincipalStressLine]:
-    """Keep lines, longest first, up to where they come close to one kept before."""
-    order = sorted(range(len(lines)), key=lambda k: (-_length(lines[k].points), k))
-    taken: set[tuple[int, int, int]] = set()
-    kept = []
-    for k in order:
-        line = lines[k]
-        boxes = [tuple(box) for box in np.floor(line.points / spacing).astype(int).tolist()]
-        free = np.array([box not in taken for box in boxes])
-        start, end = _longest_run(free)
-        part = line.points[start:end]
-        if end - start > 1 and _length(part) >= SPACINGS_MIN * spacing:
-            taken.update(boxes[start:end])
-            kept.append(PrincipalStressLine(part, line.force[start:end], line.family))
-    return kept
-
-
-def split_lines(lines: list[PrincipalStressLine]) -> tuple[np.ndarray, np.ndarray]:
-    """Return all segments (S, 2, 3) m of lines and the mean force (S,) kN/m on each."""
-    segments = [np.stack([line.points[:-1], line.points[1:]], axis=1) for line in lines]
-    force = [(line.force[:-1] + line.force[1:]) / 2 for line in lines]
-    if not segments:
-        return np.empty((0, 2, 3)), np.empty(0)
-    return np.concatenate(segments), np.concatenate(force)
-
-
-def _length(points: np.ndarray) -> float:
-    return float(np.linalg.norm(np.diff(points, axis=0), axis=1).sum())
-
-
-def _longest_run(flags: np.ndarray) -> tuple[int, int]:
-    """Return start and end of the longest run of True."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[0], flags.astype(int), [0]])))
-    starts, ends = edges[::2], edges[1::2]
-    if not len(starts):
-        return 0, 0
-    best = int((ends - starts).argmax())
-    return int(starts[best]), int(ends[best])

@@ -5,11 +5,10 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from foldshell.results.line_spacing import PrincipalStressLine, thin_out
 from foldshell.results.principal_stress_lines import (
-    PrincipalStressLine,
     find_neighbours,
     make_force_field,
-    thin_out,
     trace_principal_stress_lines,
 )
 from foldshell.shell.element import element_geometry
@@ -166,3 +165,45 @@ def test_a_closed_line_ends_when_it_has_come_round():
         step = step[np.linalg.norm(step, axis=1) > 1e-9]
         turn = np.abs(np.diff(np.unwrap(np.arctan2(step[:, 1], step[:, 0])))).sum()
         assert turn < 2.6 * np.pi
+
+
+def test_lines_start_apart_and_stay_apart():
+    """Twenty parallel lines a fifth of the spacing apart: one of five is left, from end to end."""
+    x = np.arange(0, 10, 0.1)
+    lines = [
+        PrincipalStressLine(np.column_stack([x, 0 * x + 0.2 * k, 0 * x]), np.ones(100), 0, 50)
+        for k in range(20)
+    ]
+    kept = thin_out(lines, 1.0)
+    places = sorted(line.points[0, 1] for line in kept)
+    assert all(len(line.points) == 100 for line in kept)
+    assert 2 <= len(kept) <= 4
+    assert np.diff(places).min() >= 1.0 - 1e-9
+
+
+def test_a_line_ends_where_it_comes_close_to_a_stronger_one():
+    """It keeps the piece about its start, which is not cut from it."""
+    x = np.arange(0, 10, 0.1)
+    strong = PrincipalStressLine(np.column_stack([x, 0 * x + 0.05, 0 * x]), 9 * np.ones(100), 0, 50)
+    weak = PrincipalStressLine(np.column_stack([0 * x + 5, 6 - x, 0 * x]), np.ones(100), 0, 10)
+    first, second = thin_out([weak, strong], 1.0)
+    assert len(first.points) == 100 and first.force[0] == 9
+    assert second.points[second.start] == pytest.approx(weak.points[10])
+    assert 0.4 < second.points[-1, 1] < 1.0
+
+
+def test_a_line_takes_the_other_direction_at_a_fold_where_that_pulls_alike():
+    """Two facets in one plane, the larger tension along x in one and along y in the other, 5 and
+    4.9 kN/m: the line along x goes on along x, as the lesser tension there."""
+    points = np.array([[0.0, -1, 0], [0, 1, 0], [-2, 0, 0], [2, 0, 0]])
+    mesh = build_mesh(points, np.array([[0, 1, 2], [1, 0, 3]]), None, 2)
+    along_x, along_y = (np.diag(values) for values in ([5.0, 4.0, 0.0], [4.9, 6.0, 0.0]))
+    left = field_of(mesh, lambda places: np.broadcast_to(along_x, (len(places), 3, 3)))
+    right = field_of(mesh, lambda places: np.broadcast_to(along_y, (len(places), 3, 3)))
+    which = (mesh.facet == 1)[:, None, None]
+    field = replace(left, polynomial=np.where(which, right.polynomial, left.polynomial))
+    line = trace_principal_stress_lines(field, (0,), 0.2, 0.05)[0]
+    x, force = line.points[:, 0], line.force
+    assert x.min() < -1 and x.max() > 1
+    assert np.ptp(line.points[:, 1]) < 1e-9
+    assert force[x < -0.1] == pytest.approx(5) and force[x > 0.1] == pytest.approx(4.9)
