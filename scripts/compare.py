@@ -19,7 +19,7 @@ def main(
     json_path: str | Path,
     workbook_path: str | Path,
     *,
-    subdivisions: Sequence[int] = (1, 2),
+    subdivisions: Sequence[int],
     tolerance: Mapping[str, float] | None = None,
     stability: bool = True,
     shear_factor: float = SHEAR_FACTOR,

@@ -11,7 +11,7 @@ from foldshell.report.viewer_data import make_viewer_data
 from foldshell.results.design_view import view_design
 from foldshell.results.state import read_state
 from foldshell.settings.analysed import ANALYSED
-from foldshell.settings.design import Design
+from foldshell.settings.design import Design, Row
 from foldshell.settings.stage import Plain, read_stage
 
 ARRAYS = ("mesh", "folded", "arrays", "final")
@@ -23,7 +23,7 @@ def main(
     pictures: Mapping[str, str | Path],
     page_path: str | Path,
     *,
-    design: Plain,
+    design: Row,
     settings: Plain,
 ) -> None:
     """Write the page.

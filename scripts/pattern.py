@@ -5,7 +5,7 @@ from pathlib import Path
 from foldshell.engine.job import run_job
 from foldshell.files.errors import InputError
 from foldshell.folding.targets import make_target, measure_turning
-from foldshell.pattern.design import design_sheet
+from foldshell.pattern.design import FRAMES, design_sheet
 from foldshell.pattern.drawings import draw_pattern, write_dxf, write_svg
 from foldshell.pattern.fold_format import write_fold
 from foldshell.settings.exports import Drawings
@@ -23,7 +23,7 @@ def main(
     zigzag: int,
     strip: int,
     sector_angle_deg: float,
-    frames: int = 9,
+    frames: int = FRAMES,
     dxf_path: str | Path | None = None,
     svg_path: str | Path | None = None,
     settings: Plain,

@@ -11,7 +11,7 @@ from foldshell.report.sheet import find_marks, make_sheet
 from foldshell.report.sheet_files import read_sheet
 from foldshell.report.sketch import draw_sketch
 from foldshell.settings.analysed import ANALYSED
-from foldshell.settings.design import Design
+from foldshell.settings.design import Design, Row
 from foldshell.settings.stage import Plain, read_stage
 
 PICTURE_WIDTH = 800
@@ -22,7 +22,7 @@ def main(
     html_path: str | Path,
     data_path: str | Path,
     *,
-    design: Plain,
+    design: Row,
     settings: Plain,
 ) -> None:
     """Write the sheet as HTML, and as data for `sheet_pdf`.

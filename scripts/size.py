@@ -8,7 +8,7 @@ from foldshell.engine.job import run_job
 from foldshell.files.whole import copy_whole, read_arrays, read_json, write_json
 from foldshell.results.gather import gather_iterations, remove_superseded
 from foldshell.settings.analysed import ANALYSED
-from foldshell.settings.design import Design
+from foldshell.settings.design import Design, Row
 from foldshell.settings.stage import Plain, read_stage
 from foldshell.workbook.design import write_design
 from foldshell.workbook.design_report import make_design_report
@@ -26,7 +26,7 @@ def main(
     final_json_path: str | Path,
     final_arrays_path: str | Path,
     *,
-    design: Plain,
+    design: Row,
     settings: Plain,
 ) -> None:
     """Write history.csv, history.xlsx, design.xlsx and copies of the last analysis, from that and

@@ -9,6 +9,7 @@ from foldshell.files.errors import InputError
 from foldshell.files.whole import read_arrays
 from foldshell.pattern.drawings import draw_pattern, write_dxf, write_svg
 from foldshell.pattern.fold_format import read_fold, write_fold
+from foldshell.pattern.sheet import FRAMES
 from foldshell.pattern.unfold import describe_true_sheet, name_flat_state
 from foldshell.settings.exports import Drawings
 from foldshell.settings.stage import Plain, read_stage
@@ -23,7 +24,7 @@ def main(
     *,
     design: str,
     fold_mode: str,
-    frames: int = 9,
+    frames: int = FRAMES,
     settings: Plain,
 ) -> None:
     """Read crease_pattern.fold and folded.npz; write developable_pattern.fold, .dxf and .svg.

@@ -161,7 +161,7 @@ def test_bad_input_is_one_sentence_and_writes_nothing(
     change(model, primary)
     paths = write_inputs(tmp_path, primary, model)
     with pytest.raises(CrosscheckError) as caught:
-        main(*paths)
+        main(*paths, subdivisions=[1, 2])
     assert all(word in str(caught.value) for word in words)
     assert not paths[2].exists() and not paths[3].exists()
 

@@ -11,7 +11,7 @@ import numpy as np
 
 from foldshell.pattern.grid import Grid, build_grid
 from foldshell.pattern.miura import rest_fold_angle
-from foldshell.pattern.sheet import Frame, Sheet
+from foldshell.pattern.sheet import FRAMES, Frame, Sheet
 from foldshell.pattern.unfold import fold_panels
 
 LARGEST_CHANGE = math.radians(25)  # of the odd zig-zags' sector angle against the even ones'
@@ -115,7 +115,7 @@ def _zigzag_offset(pitch: float, even: float, odd: float, fold: float) -> float:
     return pitch * (math.hypot(1 / math.tan(even), lean) + math.hypot(1 / math.tan(odd), lean)) / 2
 
 
-def make_arc_sheet(pattern: ArcMiura, strip_fold: float, frames: int = 9) -> Sheet:
+def make_arc_sheet(pattern: ArcMiura, strip_fold: float, frames: int = FRAMES) -> Sheet:
     """Arc-Miura sheet with its rest state, that state unrolled, and frames of its path."""
     slope = strip_slope(pattern.angle_odd, strip_fold)
     grid = pattern.grid

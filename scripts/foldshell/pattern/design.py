@@ -7,7 +7,7 @@ import numpy as np
 from foldshell.pattern.arc_miura import make_arc_sheet, size_arc_miura
 from foldshell.pattern.grid import build_grid, remove_creases
 from foldshell.pattern.miura import size_miura
-from foldshell.pattern.sheet import Sheet, make_miura_sheet
+from foldshell.pattern.sheet import FRAMES, Sheet, make_miura_sheet
 from foldshell.settings.design import PATTERNS
 
 SECTOR_ANGLES_DEG = (46.0, 88.0)  # near 45 the rest state is flat, near 90 zig-zags vanish
@@ -19,7 +19,7 @@ def design_sheet(
     zigzag_count: int,
     strip_count: int,
     sector_angle_deg: float,
-    frames: int = 9,
+    frames: int = FRAMES,
     turning: float = 0.0,
 ) -> Sheet:
     """Size a sheet whose rest state measures the target's central sections [m].

@@ -8,6 +8,9 @@ import numpy as np
 from foldshell.pattern.grid import Grid
 from foldshell.pattern.miura import Miura, flat_vertices, folded_vertices, rest_fold_angle
 
+FRAMES = 9
+"""States of the folding path that files and animations have."""
+
 
 @dataclass(frozen=True)
 class Frame:
@@ -41,7 +44,7 @@ class Sheet:
 
 
 def make_miura_sheet(
-    pattern: Miura, frames: int = 9, poisson: float = -1.0, widths: np.ndarray | None = None
+    pattern: Miura, frames: int = FRAMES, poisson: float = -1.0, widths: np.ndarray | None = None
 ) -> Sheet:
     """Standard Miura sheet with `frames` states of its path, flat to nearly folded flat.
 

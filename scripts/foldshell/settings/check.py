@@ -49,7 +49,7 @@ class Reader:
             if name in data:
                 self._refuse_unknown(nested, data[name], join_place(place, name), root)
 
-    def _read(self, kind: type, data: Mapping[str, Any], place: str) -> Any:
+    def _read(self, kind: type, data: Mapping[str, object], place: str) -> Any:
         values = {}
         for name, known in list_settings(kind).items():
             if known.key in data:

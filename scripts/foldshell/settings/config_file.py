@@ -107,8 +107,8 @@ def _plain(node: yaml.Node, path: Path, place: str, depth: int) -> Any:
     return _plain_scalar(node, path, place)
 
 
-def _plain_mapping(node: yaml.MappingNode, path: Path, place: str, depth: int) -> dict[str, Any]:
-    result: dict[str, Any] = {}
+def _plain_mapping(node: yaml.MappingNode, path: Path, place: str, depth: int) -> dict[str, object]:
+    result: dict[str, object] = {}
     lines: dict[str, int] = {}
     for key_node, value_node in node.value:
         line = key_node.start_mark.line + 1

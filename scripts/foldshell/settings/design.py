@@ -1,11 +1,12 @@
 """One design of the study: the columns of the table of designs; lengths in m."""
 
 import dataclasses
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from foldshell.settings.field import Group, list_settings, setting, settings_group
+
+Row = dict[str, str | int | float]
+"""One design by the columns of designs.tsv, as Snakemake's `params` and files hold it."""
 
 SURFACES = ("paraboloid", "hypar", "hypar_twist", "arch", "arch_strip")
 """Target surfaces that are known by name; others are mesh files."""
@@ -78,13 +79,13 @@ class Design(DesignColumns):
         """Number of panels, (zigzag - 1)(strip - 1)."""
         return (self.zigzag - 1) * (self.strip - 1)
 
-    def to_row(self) -> dict[str, Any]:
+    def to_row(self) -> Row:
         """Return the design as a plain row with the columns of designs.tsv."""
         columns = {known.key: getattr(self, name) for name, known in _COLUMNS.items()}
         return {"design": self.name, **columns, "tags": ",".join(self.tags)}
 
     @classmethod
-    def from_row(cls, row: Mapping[str, Any]) -> "Design":
+    def from_row(cls, row: Row) -> "Design":
         """Return the design of such a row."""
         values = {name: row[known.key] for name, known in _COLUMNS.items()}
         tags = tuple(filter(None, row["tags"].split(",")))

@@ -139,7 +139,7 @@ def list_groups(kind: type) -> dict[str, type]:
     return {field.name: field.metadata["group"] for field in found if "group" in field.metadata}
 
 
-def restore(kind: type[T], values: Mapping[str, Any]) -> T:
+def restore(kind: type[T], values: Mapping[str, object]) -> T:
     """Return a group that holds the given fields and no others, each value as it is."""
     made = object.__new__(kind)
     for name, value in values.items():

@@ -4,7 +4,6 @@ import sys
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -23,7 +22,7 @@ def _print_note(text: str) -> None:
 
 
 def load_study(
-    config: Mapping[str, Any],
+    config: Mapping[str, object],
     files: Iterable[str | Path] = (),
     say: Callable[[str], None] = _print_note,
 ) -> tuple[Settings, list[Design]]:

@@ -3,7 +3,6 @@
 from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 from foldshell.files.errors import InputError
 from foldshell.settings.check import Reader
@@ -20,7 +19,7 @@ def read_settings(path: str | Path) -> Settings:
 
 
 def make_settings(
-    config: Mapping[str, Any], source: str = "configuration", notes: list[str] | None = None
+    config: Mapping[str, object], source: str = "configuration", notes: list[str] | None = None
 ) -> Settings:
     """Check settings one by one and against each other, fill in defaults, and type them.
 

@@ -1,7 +1,7 @@
 """The settings of one stage: plain values on the way through Snakemake, typed at both ends."""
 
 import typing
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from typing import Any
 
 from foldshell.settings.field import Group, Plain, list_groups, list_settings, restore
@@ -46,7 +46,7 @@ def _iterate_plain(values: Group, stage: str | None) -> Iterator[tuple[str, Any]
             yield name, list(value) if isinstance(value, tuple) else value
 
 
-def read_stage(plain: Mapping[str, Any], *kinds: type) -> StageSettings:
+def read_stage(plain: Plain, *kinds: type) -> StageSettings:
     """Return typed settings of `params`, or of several put together: the groups of `kinds`.
 
     Raises `LookupError` for a group that is missing or of another class.
@@ -57,7 +57,7 @@ def read_stage(plain: Mapping[str, Any], *kinds: type) -> StageSettings:
     return StageSettings(*(_restore(named[name], values) for name, values in plain.items()))
 
 
-def _restore(kind: type, plain: Mapping[str, Any]) -> Any:
+def _restore(kind: type, plain: Plain) -> Any:
     groups, settings = list_groups(kind), list_settings(kind)
     return restore(
         kind,

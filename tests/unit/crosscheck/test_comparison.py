@@ -9,6 +9,7 @@ from crosscheck.comparison import TOLERANCES, Code, build_independent, compare
 from crosscheck.errors import CrosscheckError
 from crosscheck.records import to_data
 from crosscheck.workbook import write_comparison
+from foldshell.settings.crosscheck import Tolerance
 
 RUN = {
     "S2": {
@@ -147,3 +148,9 @@ def test_the_same_comparison_gives_the_same_bytes(tmp_path):
     for name in ("a.xlsx", "b.xlsx"):
         write_comparison(tmp_path / name, "x", result)
     assert (tmp_path / "a.xlsx").read_bytes() == (tmp_path / "b.xlsx").read_bytes()
+
+
+def test_tolerances_are_those_of_the_settings():
+    """The independent code has them in its own words; the rule gives it the settings'."""
+    named = vars(Tolerance())
+    assert {name: TOLERANCES[name] for name in named} == named
