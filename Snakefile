@@ -15,8 +15,8 @@ from foldshell.engine.plain_path import find_plain_path
 from foldshell.engine.versions import check_snakemake
 from foldshell.files.errors import user_errors
 from foldshell.settings.load import load_study
+from foldshell.records.edits import keep_all_edited
 from foldshell.settings.places import STUDIES, check_results, choose_results
-from foldshell.files.edits import keep_all_edited
 
 prepare_environment(os.environ)
 HOME = find_plain_path(str(workflow.current_basedir))

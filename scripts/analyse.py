@@ -1,12 +1,13 @@
 """Rule analyse: second-order shell analysis of one workbook of thicknesses, and the verdict."""
 
 import sys
+from dataclasses import replace
 from pathlib import Path
 
 from foldshell.engine.job import run_job
 from foldshell.engine.progress import describe_iteration
-from foldshell.files.edits import describe_reading, keep_edited
-from foldshell.files.whole import read_arrays, read_json, write_arrays, write_timed_json
+from foldshell.records.edits import describe_reading, find_edited_panels, keep_edited
+from foldshell.records.iteration import read_iteration, write_iteration
 from foldshell.settings.analysed import ANALYSED
 from foldshell.settings.stage import Plain, read_stage
 from foldshell.sizing.case import open_case
@@ -35,15 +36,14 @@ def main(
     keep_edited(workbook_path)
     bounds = given.sizing.least_thickness, given.sizing.largest_thickness
     thickness = read_thickness(workbook_path, make_panel_grid(zigzag, strip), *bounds)
-    before = (read_json(previous[0]), read_arrays(previous[1])) if previous else ({}, {})
-    task = IterationTask(iteration, span_m, thickness, *before)
-    report, fields = open_case(mesh_path, given).run(task)
-    decided = before[0].get("settings_hash", settings_hash)
-    report |= describe_reading(workbook_path, thickness, decided)
-    write_arrays(arrays_path, fields)
-    write_timed_json(json_path, report)
-    # One write a line, so that lines of parallel jobs do not mix.
-    sys.stderr.write(describe_iteration(design, report) + "\n")
+    before = read_iteration(*previous) if previous else (None, None)
+    edited = find_edited_panels(workbook_path, thickness)
+    task = IterationTask(iteration, span_m, thickness, *before, edited)
+    record, arrays = open_case(mesh_path, given).run(task)
+    decided = before[0].settings_hash if before[0] else settings_hash
+    record = replace(record, **describe_reading(workbook_path, thickness, decided))
+    write_iteration(json_path, arrays_path, record, arrays)
+    sys.stderr.write(describe_iteration(design, record) + "\n")  # lines of jobs do not mix
 
 
 if "snakemake" in globals():

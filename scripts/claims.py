@@ -10,10 +10,13 @@ from foldshell.claims.sensitivity import describe_variants
 from foldshell.claims.study import judge_study, list_runs, write_spread
 from foldshell.claims.words import write_claims
 from foldshell.engine.job import run_job
-from foldshell.files.whole import atomic_path, write_json
+from foldshell.files.whole import atomic_path
+from foldshell.records.design_row import make_design_row
+from foldshell.records.files import write_records
+from foldshell.records.measures import SensitivityRow
+from foldshell.records.table import write_rows
 from foldshell.settings.stage import Plain, read_stage
 from foldshell.settings.stages import STAGES
-from foldshell.workbook.tables import write_csv
 
 
 def main(
@@ -33,11 +36,11 @@ def main(
     the plain parameters of the stage `study`.
     """
     given = read_stage(settings, *STAGES["study"])
-    found: Sources = read_sources(Path(results), designs, variants, given)
+    rows = {name: [make_design_row(row) for row in group] for name, group in designs.items()}
+    found: Sources = read_sources(Path(results), rows, variants, given)
     claims = judge_study(*found, make_comparer(given.sizing))
-    write_json(json_path, claims)
-    rows = list_runs(found.variants)
-    write_csv(runs_path, list(rows[0]) if rows else ["design", "variant"], rows)
+    write_records(json_path, claims)
+    write_rows(runs_path, SensitivityRow, list_runs(found.variants))
     spread = write_spread(found.variants, found.design_results, describe_variants())
     with atomic_path(page_path) as temporary:
         temporary.write_text(write_claims(claims, spread), encoding="utf-8")

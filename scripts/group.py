@@ -4,8 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from foldshell.engine.job import run_job
-from foldshell.files.errors import InputError
-from foldshell.files.whole import read_arrays, read_json, write_arrays, write_timed_json
+from foldshell.records.iteration import read_iteration, write_classes
 from foldshell.settings.analysed import ANALYSED
 from foldshell.settings.stage import Plain, read_stage
 from foldshell.sizing.case import open_case
@@ -23,18 +22,9 @@ def main(
     settings: Plain,
 ) -> None:
     """Write classes.npz, then classes.json, from the last of the analyses."""
-    last = Path(analysis_paths[-1])
-    try:
-        report, arrays = read_json(last), read_arrays(last.with_suffix(".npz"))
-    except (OSError, ValueError):
-        raise InputError(
-            f"{last}: cannot be read: delete this file and start again, it is computed anew"
-        ) from None
-    given = read_stage(settings, *ANALYSED)
-    case = open_case(mesh_path, given)
-    found, fields = analyse_classes(case, span_m, report, arrays, classes)
-    write_arrays(arrays_path, fields)
-    write_timed_json(json_path, found)
+    last, given = read_iteration(analysis_paths[-1]), read_stage(settings, *ANALYSED)
+    found = analyse_classes(open_case(mesh_path, given), span_m, *last, classes)
+    write_classes(json_path, arrays_path, *found)
 
 
 if "snakemake" in globals():

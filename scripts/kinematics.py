@@ -1,16 +1,16 @@
 """Rule kinematics: what a Miura sheet can do, and how the paper's geometric rules fold it."""
 
 import math
-from dataclasses import asdict
 from pathlib import Path
 
 from foldshell.engine.job import run_job
-from foldshell.files.whole import write_json
 from foldshell.kinematics.figure import draw_kinematics
 from foldshell.kinematics.geometric_rules import tabulate_differences
 from foldshell.kinematics.study import SWEEPS, Sweeps, study_sheets, sweep_surfaces, tabulate_ratios
 from foldshell.kinematics.trajectory_figure import draw_trajectories
-from foldshell.workbook.tables import write_csv
+from foldshell.records.files import write_record
+from foldshell.records.kinematics import KinematicsRecord, RuleDifference
+from foldshell.records.table import write_rows
 
 
 def main(
@@ -31,18 +31,17 @@ def main(
     """
     gamma = math.radians(sector_angle_deg)
     differences = tabulate_differences(gamma)
-    rows = [asdict(row) for row in differences]
-    table = {
-        "sector_angle_deg": sector_angle_deg,
-        "ratios": tabulate_ratios(gamma),
-        "sheets": study_sheets(gamma, densities),
-        "force_ratios": sweep_surfaces(gamma, sweeps),
-        "geometric_rules": rows,
-    }
+    table = KinematicsRecord(
+        sector_angle_deg=sector_angle_deg,
+        ratios=tabulate_ratios(gamma),
+        sheets=study_sheets(gamma, densities),
+        force_ratios=sweep_surfaces(gamma, sweeps),
+        geometric_rules=tuple(differences),
+    )
     draw_kinematics(figure_path, table)
     draw_trajectories(trajectories_path, gamma, differences)
-    write_csv(rules_path, list(rows[0]), rows)
-    write_json(table_path, table)
+    write_rows(rules_path, RuleDifference, differences)
+    write_record(table_path, table)
 
 
 if "snakemake" in globals():

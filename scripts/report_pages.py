@@ -8,8 +8,9 @@ from typing import Any
 
 from foldshell.engine.job import run_job
 from foldshell.files.whole import atomic_path
+from foldshell.records.summary import SummaryRow
+from foldshell.records.table import read_rows
 from foldshell.report.study_pages import (
-    read_rows,
     write_markdown_page,
     write_settings_page,
     write_summary_page,
@@ -29,10 +30,11 @@ def main(
     """Write `pages`: summary, verification (of Markdown files), settings."""
     versions = {"python": platform.python_version()} | {name: version(name) for name in PACKAGES}
     text = "\n\n".join(Path(path).read_text(encoding="utf-8") for path in verification)
+    study_hash = hash_study(read_rows(summary, SummaryRow))
     written = {
         "summary": write_summary_page(summary),
         "verification": write_markdown_page("Verification", text),
-        "settings": write_settings_page(settings, hash_study(read_rows(summary)), versions),
+        "settings": write_settings_page(settings, study_hash, versions),
     }
     for name, page in written.items():
         with atomic_path(pages[name]) as temporary:

@@ -3,15 +3,16 @@
 from pathlib import Path
 
 from foldshell.engine.job import run_job
-from foldshell.files.edits import recorded_workbook
-from foldshell.files.whole import read_arrays, read_json, write_arrays
+from foldshell.records.analysis_arrays import StepMemory
+from foldshell.records.arrays import read_typed_arrays, write_typed_arrays
+from foldshell.records.edits import recorded_workbook
+from foldshell.records.iteration import read_iteration
 from foldshell.settings.sizing import Sizing
 from foldshell.settings.stage import Plain, read_stage
-from foldshell.sizing.step import summarise_step, take_step
+from foldshell.sizing.step import take_step
 from foldshell.workbook.panels import ThicknessTable, make_panel_grid
+from foldshell.workbook.thickness_summary import summarise_step
 from foldshell.workbook.write_thickness import write_thickness
-
-LIMITS = ("least_thickness", "largest_thickness", "utilization_max")
 
 
 def main(
@@ -29,18 +30,17 @@ def main(
 ) -> None:
     """Write thickness.xlsx, memory.npz and written.json of the iteration after `json_path`."""
     sizing = read_stage(settings, Sizing).sizing
-    analysis, arrays = read_json(json_path), read_arrays(arrays_path)
-    thickness, used = arrays["thickness"], arrays.get(f"utilization_{sizing.measure}")
-    memory = read_arrays(previous_memory) if previous_memory else {}
+    analysis, arrays = read_iteration(json_path, arrays_path)
+    memory = read_typed_arrays(previous_memory, StepMemory) if previous_memory else None
     following = take_step(analysis, arrays, memory, sizing)
-    new = following.thickness
-    table = ThicknessTable(
-        make_panel_grid(zigzag, strip), new, thickness, used, new / thickness - 1, following.note
-    )
+    new, old = following.thickness, arrays.thickness
+    used, grid = arrays.utilization(sizing.measure), make_panel_grid(zigzag, strip)
+    table = ThicknessTable(grid, new, old, used, new / old - 1, following.note)
     summary = summarise_step(design, analysis, sizing)
-    write_arrays(memory_path, following.memory)
+    bounds = sizing.least_thickness, sizing.largest_thickness
+    write_typed_arrays(memory_path, following.memory)
     with recorded_workbook(workbook_path, record_path, new) as temporary:
-        write_thickness(temporary, table, summary, *(getattr(sizing, name) for name in LIMITS))
+        write_thickness(temporary, table, summary, *bounds, sizing.utilization_max)
 
 
 if "snakemake" in globals():

@@ -5,7 +5,9 @@ from pathlib import Path
 from foldshell.claims.measures import Layout, measure_state
 from foldshell.claims.sensitivity import VARIANTS, change_settings
 from foldshell.engine.job import run_job
-from foldshell.files.whole import read_arrays, write_json
+from foldshell.files.whole import read_arrays
+from foldshell.records.files import write_record
+from foldshell.records.measures import VariantRecord
 from foldshell.settings.analysed import ANALYSED
 from foldshell.settings.stage import Plain, read_stage
 from foldshell.sizing.case import open_case
@@ -33,13 +35,14 @@ def main(
     measures = measure_state(
         read_arrays(mesh_path),
         Layout(*layout),
-        result.reports[-1],
+        result.analyses[-1],
         result.arrays,
         changed.combinations,
         changed.sizing.measure,
     )
-    report = {"design": design, "variant": variant, "changes": VARIANTS[variant]}
-    write_json(json_path, report | {"measures": measures})
+    changes = VARIANTS[variant]
+    record = VariantRecord(design=design, variant=variant, changes=changes, measures=measures)
+    write_record(json_path, record)
 
 
 if "snakemake" in globals():

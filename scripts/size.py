@@ -5,14 +5,16 @@ from pathlib import Path
 
 from foldshell.engine.environment import list_versions
 from foldshell.engine.job import run_job
-from foldshell.files.whole import copy_whole, read_arrays, read_json, write_json
-from foldshell.results.gather import gather_iterations, remove_superseded
+from foldshell.records.history import HistoryRow
+from foldshell.records.iteration import read_classes
+from foldshell.records.table import write_rows
+from foldshell.results.gather import gather_iterations, remove_superseded, write_final
 from foldshell.settings.analysed import ANALYSED
 from foldshell.settings.design import Design, Row
 from foldshell.settings.stage import Plain, read_stage
 from foldshell.workbook.design import write_design
 from foldshell.workbook.design_report import make_design_report
-from foldshell.workbook.history import write_history, write_history_csv
+from foldshell.workbook.history import write_history
 
 PACKAGES = ("numpy", "scipy", "cvxopt", "snakemake", "openpyxl", "XlsxWriter")
 
@@ -29,19 +31,17 @@ def main(
     design: Row,
     settings: Plain,
 ) -> None:
-    """Write history.csv, history.xlsx, design.xlsx and copies of the last analysis, from that and
-    classes.json, classes.npz. Iterations left behind the last one are removed; edited workbooks
-    among them are kept under sizing/superseded."""
+    """Write histories, design.xlsx and copies of the last analysis. Iterations left behind that one
+    are removed; edited workbooks among them are kept under sizing/superseded."""
     one, given = Design.from_row(design), read_stage(settings, *ANALYSED)
-    iterations = gather_iterations(json_paths, one, given.sizing)
-    versions = list_versions(PACKAGES)
-    more = versions, read_json(classes_paths[0]), read_arrays(classes_paths[1])["panel_class"]
+    iterations = gather_iterations(json_paths, one.span, given.sizing)
+    more = list_versions(PACKAGES), *read_classes(*classes_paths)
     report = make_design_report(iterations, one, given, *more)
-    write_history_csv(csv_path, iterations.history)
-    write_history(history_path, iterations.history, report.verdict, report.utilization_max)
+    write_rows(csv_path, HistoryRow, iterations.history)
+    limit = report.utilization_max
+    write_history(history_path, iterations.history, report.verdict, limit, report.measure)
     write_design(design_path, report)
-    copy_whole(iterations.last_arrays, final_arrays_path)
-    write_json(final_json_path, iterations.analyses[-1])
+    write_final(final_json_path, final_arrays_path, iterations)
     remove_superseded(Path(csv_path).parent, len(json_paths))
 
 

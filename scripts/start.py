@@ -5,10 +5,12 @@ from pathlib import Path
 import numpy as np
 
 from foldshell.engine.job import run_job
-from foldshell.files.edits import recorded_workbook
+from foldshell.records.edits import recorded_workbook
 from foldshell.settings.sizing import Sizing
 from foldshell.settings.stage import Plain, read_stage
+from foldshell.sizing.rounding import round_thickness
 from foldshell.workbook.panels import ThicknessTable, make_panel_grid
+from foldshell.workbook.thickness_summary import summarise_start
 from foldshell.workbook.write_thickness import write_thickness
 
 
@@ -27,15 +29,9 @@ def main(
     least, largest = sizing.least_thickness, sizing.largest_thickness
     grid = make_panel_grid(zigzag, strip)
     table = ThicknessTable(grid, np.full(len(grid.panel), sizing.start_thickness))
-    summary = {
-        "design": design,
-        "iteration": 0,
-        "verdict": "not analysed yet",
-        "least_thickness_m": least,
-        "largest_thickness_m": largest,
-        "settings_hash": settings_hash,
-    }
-    with recorded_workbook(workbook_path, record_path, table.thickness) as temporary:
+    summary = summarise_start(design, least, largest, settings_hash)
+    written = round_thickness(table.thickness)
+    with recorded_workbook(workbook_path, record_path, written) as temporary:
         write_thickness(temporary, table, summary, least, largest)
 
 

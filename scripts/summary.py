@@ -6,9 +6,10 @@ from typing import Any
 
 from foldshell.engine.job import run_job
 from foldshell.files.errors import InputError
-from foldshell.results.summary import SUMMARY_KEYS, hash_study, make_summary_row
+from foldshell.records.summary import SummaryRow
+from foldshell.records.table import write_rows
+from foldshell.results.summary import hash_study, make_summary_row
 from foldshell.workbook.summary import write_summary
-from foldshell.workbook.tables import write_csv
 
 
 def main(
@@ -26,9 +27,9 @@ def main(
     if not designs:
         raise InputError("summary: designs: none given: at least one is due")
     rows = [make_summary_row(row, Path(results) / row["design"]) for row in designs]
-    limit = settings["sizing"]["utilization_max"]
-    write_csv(csv, SUMMARY_KEYS, rows)
-    write_summary(xlsx, SUMMARY_KEYS, rows, {**settings, "study_hash": hash_study(rows)}, limit)
+    sizing, shown = settings["sizing"], {**settings, "study_hash": hash_study(rows)}
+    write_rows(csv, SummaryRow, rows)
+    write_summary(xlsx, rows, shown, sizing["utilization_max"], sizing["measure"])
 
 
 if "snakemake" in globals():

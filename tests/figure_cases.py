@@ -4,13 +4,15 @@ import math
 
 import numpy as np
 
-from foldshell.files.whole import write_arrays, write_json
+from foldshell.files.whole import write_arrays
 from foldshell.folding.quality import measure_planarity
 from foldshell.pattern.miura import Miura
 from foldshell.pattern.sheet import make_miura_sheet
+from foldshell.records.analysis import write_analysis
 from foldshell.results.state import read_state
 from foldshell.settings.loads import Combinations
 from foldshell.shell.mesh_files import mesh_folded_sheet, read_mesh, write_mesh
+from record_cases import make_analysis
 
 COMBINATIONS = {"strength": {"S1": {}, "S2": {}}, "deflection": {"D1": {}, "D2": {}}}
 ZIGZAGS, STRIPS = 5, 6
@@ -59,11 +61,11 @@ def write_case(folder, folded=True, utilization=0.4, move=None, thickness=None, 
     classes = {"panel_class": panel_class, "thickness": of_class[panel_class - 1]}
     write_arrays(folder / "classes.npz", classes)
     facts = {"verdict": "converged", "reason": "all criteria are met", "iteration": 3,
-             "state": "ok", "volume_m3": 2.0, "area_m2": 20.0,
-             "utilization_panel_mean_max": utilization, "utilization_p99": utilization,
-             "utilization_mean": utilization,
+             "volume_m3": 2.0, "area_m2": 20.0,
              "buckling_factor": {"S1": 3.0, "S2": 2.0, "D1": None, "D2": 4.0}}  # fmt: skip
-    write_json(folder / "final.json", facts | report)
+    names = ("utilization_panel_mean_max", "utilization_p99", "utilization_mean")
+    record = make_analysis(**facts | dict.fromkeys(names, utilization) | report)
+    write_analysis(folder / "final.json", record)
     files = ("mesh", "folded", "final", "final", "classes")
     return tuple(
         folder / f"{name}.{kind}"

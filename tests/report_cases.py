@@ -7,35 +7,50 @@ import numpy as np
 from PIL import Image
 
 from figure_cases import COMBINATIONS, PANELS, write_case
-from foldshell.files.whole import write_arrays, write_json
+from foldshell.files.whole import write_arrays
+from foldshell.records.files import write_record
+from foldshell.records.history import HistoryRow
+from foldshell.records.table import write_rows
 from foldshell.settings.make import make_settings
 from foldshell.settings.stages import stage_parameters
+from record_cases import (
+    make_classes,
+    make_comparison,
+    make_convergence,
+    make_quality,
+    make_quantity,
+)
 
 DESIGN = {"design": "case", "pattern": "miura", "surface": "paraboloid", "span_m": 5.0,
           "height_m": 2.0, "zigzag": 5, "strip": 6, "support": "strip", "fold_mode": "elastic",
           "edge_beam_depth_m": 0.0, "edge_beam_thickness_m": 0.0,
           "tags": "one,two"}  # fmt: skip
 SETTINGS = stage_parameters(make_settings({}), "size") | {"combinations": COMBINATIONS}
-QUANTITY = {"primary": 0.1, "independent": 0.11, "relative_difference": 0.09, "tolerance": 0.05,
-            "pass": False}  # fmt: skip
 
 
-def write_files(folder, classes=True, comparison=None, history=True, **options):
+def write_files(folder, classes=True, comparison=None, history=True, edited=None, **options):
     """Write all inputs of rule page; return them by name, and the pictures by name."""
     folder.mkdir(exist_ok=True)
     mesh, folded, arrays, final, _ = write_case(folder, **options)
     numbers = {"panel_class": np.arange(PANELS) % 2 + 1, "thickness": np.full(PANELS, 0.1)}
     write_arrays(folder / "classes.npz", numbers if classes else {})
-    groups = [{"class": k, "thickness_m": 0.1, "panels": 10, "area_m2": 9.0} for k in (1, 2)]
-    write_json(folder / "classes.json", {"verdict": "holds", "reason": "all criteria are met",
-               "classes": groups if classes else [], "added_volume_relative": 0.12})  # fmt: skip
-    write_json(folder / "quality.json", {"state": "ok", "reason": "", "planarity_max": 0.02})
-    write_json(folder / "study.json", {"errors": {"S2": {"work_knm": 0.03}}})
-    comparison = comparison or {"pass": False, "quantities": {"S2 work_knm": QUANTITY}}
-    write_json(folder / "comparison.json", comparison)
-    rows = ["volume_m3,utilization_panel_mean_max,displacement_vertical_max_m,displacement_limit_m"]
-    rows += ["2.0,0.4,0.01,0.02", "1.8,,0.011,0.02"] if history else ["2.0,,,"]
-    (folder / "history.csv").write_text("\n".join(rows) + "\n")
+    groups = [(0.1, 10, 9.0)] * 2 if classes else []
+    write_record(folder / "classes.json", make_classes(groups))
+    write_record(folder / "quality.json", make_quality(planarity_max=0.02))
+    write_record(folder / "study.json", make_convergence({"S2": {"work_knm": 0.03}}))
+    quantities = {"S2 work_knm": make_quantity()}
+    write_record(folder / "comparison.json", comparison or make_comparison(False, quantities))
+    shared = {"verdict": "continue", "reason": "", "second_order_iterations": 3}
+    rows = [HistoryRow(iteration=0, volume_m3=2.0, **shared)]
+    if history:
+        limit = {"displacement_limit_m": 0.02} | shared
+        rows = [
+            HistoryRow(iteration=0, volume_m3=2.0, utilization_panel_mean_max=0.4,
+                       displacement_vertical_max_m=0.01, **limit),
+            HistoryRow(iteration=1, volume_m3=1.8, displacement_vertical_max_m=0.011,
+                       edited_panels=edited, **limit),
+        ]  # fmt: skip
+    write_rows(folder / "history.csv", HistoryRow, rows)
     pictures = {name: folder / f"{name}.png" for name in ("principal_stress_lines", "utilization")}
     for path in pictures.values():
         Image.new("RGB", (400, 300), "teal").save(path)

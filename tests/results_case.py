@@ -6,6 +6,7 @@ from foldshell.files.job_record import JobRecord, read_records, state_of, write_
 from foldshell.files.manifest import make_manifest, write_manifest
 from foldshell.files.whole import hash_file, write_arrays, write_json
 from foldshell.workbook.panels import ThicknessTable, make_panel_grid
+from foldshell.workbook.styles import Line
 from foldshell.workbook.write_thickness import write_thickness
 
 VERSIONS = {"foldshell": "1", "commit": "abc"}
@@ -15,7 +16,7 @@ def write_book(home, number, thickness):
     path = home / f"sizing/{number:02d}/thickness.xlsx"
     path.parent.mkdir(parents=True, exist_ok=True)
     table = ThicknessTable(make_panel_grid(3, 4), np.full(6, thickness))
-    write_thickness(path, table, {"design": home.name, "iteration": number}, 0.01, 1.0)
+    write_thickness(path, table, [Line("design", home.name), Line("iteration", number)], 0.01, 1.0)
     return path
 
 

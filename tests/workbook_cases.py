@@ -8,13 +8,19 @@ from pathlib import Path
 import numpy as np
 
 from foldshell.workbook.panels import ThicknessTable, make_panel_grid
+from foldshell.workbook.styles import Line
 from foldshell.workbook.write_thickness import write_thickness
 
 LEAST, LARGEST = 0.04, 1.0
 GRID = make_panel_grid(4, 5)  # 3 x 4 = 12 panels
 THICKNESS = np.linspace(0.05, 0.25, 12)
 SHEET_PART = "xl/worksheets/sheet2.xml"
-SUMMARY = {"design": "a", "iteration": 0, "verdict": "continue", "volume_m3": 12.5}
+SUMMARY = [
+    Line("design", "a"),
+    Line("iteration", 0),
+    Line("verdict of analysis 00", "continue", judged=True),
+    Line("volume of analysis 00", 12.5, "m3"),
+]
 
 
 def write_case(path: Path, **columns: object) -> Path:

@@ -4,9 +4,9 @@ These functions join what the rules do one after the other; results are those of
 the last bit.
 """
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -20,6 +20,8 @@ from foldshell.folding.targets import measure_turning
 from foldshell.pattern.design import design_sheet
 from foldshell.pattern.fold_format import write_fold
 from foldshell.pattern.sheet import Sheet
+from foldshell.records.analysis import AnalysisRecord
+from foldshell.records.analysis_arrays import AnalysisArrays
 from foldshell.settings.study import Settings
 from foldshell.shell.edge_beams import make_edge_beam
 from foldshell.shell.mesh_files import mesh_folded_sheet
@@ -28,6 +30,7 @@ from foldshell.sizing.iteration import IterationTask
 from foldshell.sizing.loop import run_loop
 from foldshell.sizing.rounding import round_thickness
 from foldshell.workbook.panels import PanelGrid, ThicknessTable
+from foldshell.workbook.styles import Line, make_lines
 from foldshell.workbook.write_thickness import write_thickness
 
 
@@ -52,21 +55,21 @@ class Shell:
 
 @dataclass(frozen=True)
 class SizedShell:
-    """A shell and the analyses of its loop; `reports` have the keys of analysis.json.
+    """A shell and the analyses of its loop, which are those of analysis.json.
 
     `thickness` (P,) m of the panels, `utilization` (P,) by the measure of the settings, of the last
     analysis.
     """
 
     shell: Shell
-    reports: tuple[dict[str, Any], ...]
+    analyses: tuple[AnalysisRecord, ...]
     thickness: np.ndarray
     utilization: np.ndarray
 
     @property
-    def last(self) -> dict[str, Any]:
-        """The report of the last analysis: verdict, reason, volume_m3, buckling_factor, ..."""
-        return self.reports[-1]
+    def last(self) -> AnalysisRecord:
+        """The last analysis: verdict, reason, volume_m3, least_factor, ..."""
+        return self.analyses[-1]
 
 
 def make_sheet(
@@ -117,30 +120,30 @@ def mesh_shell(
 def analyse_shell(shell: Shell, thickness: float | np.ndarray) -> SizedShell:
     """Analyse a shell of one thickness, or of one per panel (P,) m, to second order."""
     values = np.broadcast_to(np.asarray(thickness, float), shell.grid.panel.shape)
-    task = IterationTask(0, shell.span, round_thickness(values), {}, {})
-    report, arrays = shell.case.run(task)
-    return _gather(shell, [report], arrays)
+    task = IterationTask(0, shell.span, round_thickness(values))
+    record, arrays = shell.case.run(task)
+    return _gather(shell, [record], arrays)
 
 
 def size_shell(shell: Shell) -> SizedShell:
     """Size the panels of a shell from the start thickness of the settings until a verdict."""
     done = run_loop(shell.case, shell.span, shell.settings.sizing)
-    return _gather(shell, done.reports, done.arrays)
+    return _gather(shell, done.analyses, done.arrays)
 
 
-def _gather(shell: Shell, reports: list, arrays: dict[str, np.ndarray]) -> SizedShell:
-    unknown = np.full(shell.grid.panel.size, np.nan)
-    used = arrays.get(f"utilization_{shell.case.sizing.measure}", unknown)
-    return SizedShell(shell, tuple(reports), arrays["thickness"], used)
+def _gather(shell: Shell, analyses: Sequence[AnalysisRecord], arrays: AnalysisArrays) -> SizedShell:
+    used = arrays.utilization(shell.case.sizing.measure)
+    used = np.full(shell.grid.panel.size, np.nan) if used is None else used
+    return SizedShell(shell, tuple(analyses), arrays.thickness, used)
 
 
 def write_workbook(path: str | Path, sized: SizedShell, title: str = "shell") -> None:
     """Write thickness.xlsx with the thicknesses (m) of a shell's panels."""
-    sizing, last = sized.shell.case.sizing, sized.last
-    summary = {name: last[name] for name in ("iteration", "verdict", "reason", "volume_m3")}
+    sizing, keys = sized.shell.case.sizing, ("iteration", "verdict", "reason", "volume_m3")
+    summary = [Line("design", title), *make_lines(sized.last, keys)]
     table = ThicknessTable(sized.shell.grid, sized.thickness)
     bounds = sizing.least_thickness, sizing.largest_thickness
-    write_thickness(path, table, {"design": title} | summary, *bounds)
+    write_thickness(path, table, summary, *bounds)
 
 
 def write_pattern(path: str | Path, sheet: Sheet, title: str = "sheet") -> None:

@@ -13,7 +13,8 @@ from sizing_case import PANELS, SPAN, STRIP, ZIGZAG, given, stage, write_small_m
 KEYS = """
     iteration verdict reason criteria utilization_max utilization_p99 utilization_panel_mean_max
     panels_above_one displacement_vertical_max_m volume_m3 area_m2 buckling_factor
-    reaction_imbalance second_order_iterations dofs edited workbook_sha256
+    reaction_imbalance second_order_iterations dofs edited workbook_sha256 counted_from
+    governing_combination
 """
 
 

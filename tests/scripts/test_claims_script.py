@@ -13,10 +13,21 @@ from foldshell.claims.read import read_errors
 from foldshell.claims.sensitivity import VARIANTS, change_settings, describe_variants
 from foldshell.files.errors import InputError
 from foldshell.files.whole import read_json, write_arrays, write_json
+from foldshell.records.analysis import write_analysis
+from foldshell.records.files import write_record
+from foldshell.records.iteration import write_iteration
+from foldshell.records.kinematics import KinematicsRecord
 from foldshell.shell.mesh_files import mesh_folded_sheet
 from foldshell.sizing.case import make_case
 from foldshell.sizing.iteration import IterationTask
 from foldshell.sizing.loop import run_loop
+from record_cases import (
+    make_analysis,
+    make_comparison,
+    make_convergence,
+    make_quality,
+    make_quantity,
+)
 from sizing_case import DESIGN, PANELS, SPAN, STRIP, ZIGZAG, corrugated_sheet, given, stage
 
 LAYOUT = (ZIGZAG, STRIP, "strip")
@@ -30,9 +41,9 @@ def _sized():
     settings = given("size", **SIZING)
     case = make_case(mesh, settings)
     thickness = np.full(PANELS, settings.sizing.start_thickness)
-    first = case.run(IterationTask(0, SPAN, thickness, {}, {}))
+    first = case.run(IterationTask(0, SPAN, thickness))
     result = run_loop(case, SPAN, settings.sizing)
-    return mesh, first, (result.reports[-1], result.arrays)
+    return mesh, first, (result.analyses[-1], result.arrays)
 
 
 def _write_design(folder):
@@ -40,21 +51,23 @@ def _write_design(folder):
     write_arrays(folder / "shell/mesh.npz", mesh)
     planarity = np.linspace(0, 0.01, PANELS)
     write_arrays(folder / "folded/folded.npz", corrugated_sheet() | {"planarity": planarity})
-    for path, (report, arrays) in (("00/analysis", first), ("final", last)):
-        write_json(folder / f"sizing/{path}.json", report)
-        write_arrays(folder / f"sizing/{path}.npz", arrays)
-    names = ("edge_strain_rms", "edge_strain_max", "planarity_max", "angle_defect_max_rad")
-    write_json(folder / "folded/quality.json", dict.fromkeys(names, 0.01))
+    for path, (record, arrays) in (("00/analysis", first), ("final", last)):
+        places = (folder / f"sizing/{path}.{kind}" for kind in ("json", "npz"))
+        write_iteration(*places, record, arrays)
+    write_record(folder / "folded/quality.json", make_quality())
     errors = {"displacement_down_max_m": 0.02, "utilization_panel_mean_max": 0.01}
-    write_json(folder / "mesh_convergence.json", {"errors": {"S2": errors, "D2": errors}})
-    found = {"relative_difference": 0.01, "primary": 1.0, "primary_meshes": [1.02, 1.0]}
+    record = make_convergence({"S2": errors, "D2": errors})
+    write_record(folder / "mesh_convergence.json", record)
+    found = make_quantity(True, relative_difference=0.01, primary=1.0, primary_meshes=(1.02, 1.0))
     quantities = {f"{c} {q}": found for c in ("S2", "D2") for q in (*errors, "buckling_factor")}
-    write_json(folder / "crosscheck/comparison.json", {"pass": True, "quantities": quantities})
+    path = folder / "crosscheck/comparison.json"
+    write_record(path, make_comparison(True, quantities))
 
 
 def _write_study(results):
     _write_design(results / "small")
-    write_json(results / "kinematics.json", {"ratios": [], "sheets": [], "force_ratios": []})
+    empty = dict.fromkeys(("ratios", "sheets", "force_ratios", "geometric_rules"), ())
+    write_record(results / "kinematics.json", KinematicsRecord(sector_angle_deg=60.0, **empty))
     for variant in ("base", "start_60"):
         sensitivity.main(
             results / "small/shell/mesh.npz", results / f"sensitivity/{variant}/small.json",
@@ -121,14 +134,14 @@ def test_mesh_error_of_the_cross_check_stands_in_where_the_mesh_study_has_none(s
     errors = read_errors(study / "small", given("study").crosscheck)
     assert errors["buckling"] == pytest.approx((0.02, 0.01))
     assert errors["displacement"] == pytest.approx((0.02, 0.01))
-    (study / "small/crosscheck/comparison.json").write_text("{}")
+    write_record(study / "small/crosscheck/comparison.json", make_comparison(None))
     errors = read_errors(study / "small", given("study").crosscheck)
     assert errors["buckling"] == (None, None) and errors["displacement"] == (0.02, None)
 
 
 def test_a_missing_result_is_named(study):
     (study / "small/mesh_convergence.json").unlink()
-    with pytest.raises(InputError, match=r"mesh_convergence\.json.*delete"):
+    with pytest.raises(InputError, match=r"mesh_convergence\.json: no such file"):
         _judge(study)
 
 
@@ -138,7 +151,7 @@ def test_flat_sheet_has_the_volume_of_the_folded_one(tmp_path):
     strip, zigzag = sheet["strip"] * 6 / (STRIP - 1), sheet["zigzag"] * 6 / (ZIGZAG - 1)
     flat = sheet | {"vertices": np.column_stack([strip, zigzag, 0.0 * strip])}
     write_arrays(tmp_path / "flat.npz", flat)
-    write_json(tmp_path / "final.json", {"volume_m3": 2.7})
+    write_analysis(tmp_path / "final.json", make_analysis(volume_m3=2.7))
     paths = tmp_path / "flat.npz", tmp_path / "final.json", tmp_path / "flat_equal.json"
     flat_equal.main(*paths, flat="flat-sheet", layout=LAYOUT, span_m=SPAN, subdivisions=2,
                     settings=stage("size"))  # fmt: skip
@@ -148,8 +161,8 @@ def test_flat_sheet_has_the_volume_of_the_folded_one(tmp_path):
     settings = given("size")
     settings = settings.changed(settings.analysis.changed(second_order=False))
     case = make_case(mesh_folded_sheet(flat, "strip", 2), settings)
-    report, _ = case.run(IterationTask(0, SPAN, np.full(PANELS, 0.075), {}, {}))
-    first = report["displacement_vertical_max_m"]
+    report, _ = case.run(IterationTask(0, SPAN, np.full(PANELS, 0.075)))
+    first = report.displacement_vertical_max_m
     assert found["displacement_first_order_m"] == pytest.approx(first, rel=1e-9)
     assert found["measures"]["displacement"] != pytest.approx(first, rel=1e-6)
     assert 0 <= found["errors"]["displacement"][0] < 0.05

@@ -109,10 +109,10 @@ def test_workbooks_and_summary_show_the_edge_beam(folder):
     assert words["edge beam utilization max"] == pytest.approx(report["edge_beam_utilization_max"])
     assert len(list(book["panels"].iter_rows())) == 2 + PANELS
     line = make_summary_row(DESIGN | SIZES, folder)
-    assert line["edge_beam_depth_m"] == BEAM[0]
-    assert line["edge_beam_utilization_max"] == report["edge_beam_utilization_max"]
+    assert line.edge_beam_depth_m == BEAM[0]
+    assert line.edge_beam_utilization_max == report["edge_beam_utilization_max"]
     plain = make_summary_row(DESIGN | dict.fromkeys(SIZES, 0.0), folder)
-    assert plain["edge_beam_depth_m"] is None
+    assert plain.edge_beam_depth_m is None
 
 
 @pytest.mark.slow
@@ -166,19 +166,19 @@ def test_gradients_of_the_constraints_leave_the_edge_beam_out(folder):
     base = np.full(PANELS, 0.004)
 
     def run(thickness):
-        return case.run(IterationTask(0, SPAN, thickness, {}, {}))
+        return case.run(IterationTask(0, SPAN, thickness))
 
     report, arrays = run(base)
-    beam = arrays["edge_beam_utilization_panel_mean"]
-    assert arrays["panel_area"].shape == (PANELS,)
-    assert arrays["constraint_gradient"].shape == (len(arrays["constraint_value"]), PANELS)
-    assert report["criteria"]["edge_beam_utilization"]["value"] == beam.max() > limit
-    above = (arrays["utilization_panel_mean"] > limit).sum()
-    assert report["panels_above_one"] == above > 0 and report["panels_at_bound"] == PANELS
-    row = int(np.argmin(np.abs(arrays["constraint_value"] - beam.max() / limit)))
-    panel = int(np.abs(arrays["constraint_gradient"][row]).argmax())
+    beam = arrays.edge_beam_utilization_panel_mean
+    assert arrays.panel_area.shape == (PANELS,)
+    assert arrays.constraint_gradient.shape == (len(arrays.constraint_value), PANELS)
+    assert report.criteria.edge_beam_utilization.value == beam.max() > limit
+    above = (arrays.utilization_panel_mean > limit).sum()
+    assert report.panels_above_one == above > 0 and report.panels_at_bound == PANELS
+    row = int(np.argmin(np.abs(arrays.constraint_value - beam.max() / limit)))
+    panel = int(np.abs(arrays.constraint_gradient[row]).argmax())
     step = 1e-6 * np.eye(PANELS)[panel]
     up, down = (run(base + sign * step)[1] for sign in (1, -1))
-    name = "edge_beam_utilization_panel_mean"
-    slope = (up[name] - down[name])[beam.argmax()] / 2e-6 / limit
-    assert arrays["constraint_gradient"][row, panel] == pytest.approx(slope, rel=1e-3)
+    up, down = (one.edge_beam_utilization_panel_mean for one in (up, down))
+    slope = (up - down)[beam.argmax()] / 2e-6 / limit
+    assert arrays.constraint_gradient[row, panel] == pytest.approx(slope, rel=1e-3)

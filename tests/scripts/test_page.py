@@ -9,8 +9,10 @@ import numpy as np
 import pytest
 
 import page
+from foldshell.records.analysis import Criteria
 from foldshell.report import page as library
 from foldshell.report.arrays import unpack_arrays
+from record_cases import make_comparison, make_criterion
 from report_cases import DESIGN, SETTINGS, read_data, write_files
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("chrome")
@@ -26,15 +28,22 @@ def run(folder, design=DESIGN, **options):
 
 def test_page_holds_everything_that_is_said_of_the_design(tmp_path):
     """Verdict, criteria, cross-check, classes, history, picture; arrays that can be read back."""
-    text = run(tmp_path, criteria={"utilization_max": {"value": 0.4, "limit": 1.0, "met": True}})
+    text = run(tmp_path, criteria=Criteria(utilization_panel_mean=make_criterion()))
     words = html.unescape(re.sub(r"<[^>]*>", " ", text.split("<script", maxsplit=1)[0]))
-    for part in ("converged", "all criteria are met", "utilization max", "not within tolerance",
-                 "S2 work [kNm]", "+12.0 %", "history", "planarity"):  # fmt: skip
+    for part in ("converged", "all criteria are met", "utilization, largest panel mean [-]",
+                 "not within tolerance", "S2 work [kNm]", "+12.0 %", "history",
+                 "planarity"):  # fmt: skip
         assert part in words or part in text
     assert "data:image/webp;base64," in text
     facts, packed = read_data(text)
     arrays = unpack_arrays(facts["arrays"], packed)
     assert {f"field_{field['name']}" for field in facts["fields"]} < set(arrays)
+
+
+def test_page_says_that_a_person_changed_panels(tmp_path):
+    """Beside the verdict: which workbook, how many panels."""
+    assert "A person changed" not in run(tmp_path)
+    assert "in the workbook of iteration 01 (3 panels)" in run(tmp_path, edited=3)
 
 
 def test_page_asks_no_host(tmp_path):
@@ -60,7 +69,7 @@ def test_unstable_and_plain_designs_have_a_page(tmp_path, pattern):
         tmp_path, DESIGN | {"pattern": pattern}, folded=pattern != "flat", utilization=None,
         move=lambda x: np.nan * x, classes=False, history=False, verdict="unstable",
         reason="a mechanism", buckling_factor={"S1": None}, iteration=0,
-        comparison={"pass": False, "reason": "nothing to compare", "quantities": {}},
+        comparison=make_comparison(False, reason="nothing to compare"),
     )  # fmt: skip
     for part in ("unstable", "a mechanism", "No criteria", "nothing to compare", "1 analysis"):
         assert part in text

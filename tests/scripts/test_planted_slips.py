@@ -247,7 +247,7 @@ def test_a_slip_in_one_code_is_caught(name, where, right, tmp_path, monkeypatch)
     assert not result.passed
     assert result.independent_subdivisions == [2, 3]
     entry = result.quantities[f"S2 {quantity}"]
-    print(f"{name} | {where} | {quantity} | {entry['relative_difference']:.2g}")
+    print(f"{name} | {where} | {quantity} | {entry.relative_difference:.2g}")
     assert not entry.passed
     # not by a hair: the difference is at least a quarter more than what is allowed
     assert entry.relative_difference > 1.25 * entry.tolerance

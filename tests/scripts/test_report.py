@@ -37,7 +37,7 @@ def final_of(**changed):
         "buckling_factor": {"S1": 10.1, "D1": None}, "second_order_iterations": 4,
         "second_order_residual": 1e-8, "dofs": 19027, "mesh_subdivisions": 4, "element_order": 5,
         "verdict": "converged", "reason": "all criteria are met", "stationary_iterations": 1,
-        "criteria": {"utilization_max": used, "displacement_vertical_m": limit},
+        "criteria": {"utilization_panel_mean": used, "displacement_vertical_m": limit},
         "displacement_combination": "D1", "displacement_place_m": [1.0, 2.0, 3.0],
         "edited": False,
     } | changed  # fmt: skip

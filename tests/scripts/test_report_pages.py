@@ -2,14 +2,14 @@
 
 import claims_page
 import report_pages
-from unit.report.test_study_pages import HEADER
+from foldshell.records.summary import SummaryRow
+from foldshell.records.table import write_rows
+from record_cases import make_summary
 
 
 def test_three_pages_are_written(tmp_path):
     """Summary from CSV, verification from Markdown, settings with hash and versions."""
-    (tmp_path / "summary.csv").write_text(
-        f"{HEADER}\na,converged,arch,28,10,15,16,all,95,0.06,0.6,2,0.09,10,0.04,pass,15,met\n"
-    )
+    write_rows(tmp_path / "summary.csv", SummaryRow, [make_summary(crosscheck="pass")])
     (tmp_path / "a.md").write_text("# Shell\n\n| problem | value |\n|---|---|\n| plate | 4 |\n")
     pages = {name: tmp_path / f"{name}.html" for name in ("summary", "verification", "settings")}
     report_pages.main(tmp_path / "summary.csv", [tmp_path / "a.md"], pages,

@@ -4,23 +4,22 @@ import numpy as np
 import pytest
 
 import resize
-from foldshell.files.edits import is_edited
-from foldshell.files.whole import read_arrays, write_arrays, write_json
+from foldshell.files.whole import read_arrays, write_arrays
+from foldshell.records.analysis import Criteria, write_analysis
+from foldshell.records.edits import is_edited
 from foldshell.workbook.panels import make_panel_grid
 from foldshell.workbook.read_thickness import read_thickness
+from record_cases import make_analysis, make_criterion
 from sizing_case import PANELS, STRIP, ZIGZAG, stage
 
 USED = np.linspace(0.1, 1.2, PANELS)
 
 
 def _analysis(folder, state="ok", **arrays):
-    criteria = {"displacement_vertical_m": {"value": 0.01, "limit": 0.1, "met": True}}
-    report = {
-        "iteration": 0, "state": state, "verdict": "continue", "reason": "a reason",
-        "criteria": criteria, "buckling_factor": {"S1": 9.0, "D1": None}, "volume_m3": 4.0,
-        "settings_hash": "0123456789ab",
-    }  # fmt: skip
-    write_json(folder / "analysis.json", report)
+    criteria = Criteria(displacement_vertical_m=make_criterion())
+    factors = {"S1": 9.0, "D1": None}
+    record = make_analysis(state=state, criteria=criteria, buckling_factor=factors, volume_m3=4.0)
+    write_analysis(folder / "analysis.json", record)
     write_arrays(folder / "analysis.npz", {"thickness": np.full(PANELS, 0.1), **arrays})
     return folder / "analysis.json", folder / "analysis.npz"
 

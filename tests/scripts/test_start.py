@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 import start
-from foldshell.files.edits import is_edited
+from foldshell.records.edits import is_edited
 from foldshell.workbook.panels import make_panel_grid
 from foldshell.workbook.read_thickness import read_thickness
 from sizing_case import stage

@@ -1,16 +1,19 @@
 """The script summary: one row per design, whatever became of it."""
 
 import csv
-import json
 
 import openpyxl
 import pytest
 
 import summary
 from foldshell.files.errors import InputError
-from foldshell.results.summary import SUMMARY_KEYS
+from foldshell.records.analysis import write_analysis
+from foldshell.records.entry import entries
+from foldshell.records.files import write_record
+from foldshell.records.summary import SummaryRow
 from foldshell.settings.make import make_settings
 from foldshell.settings.stages import stage_parameters
+from record_cases import USED, make_analysis, make_comparison, make_convergence, make_quality
 
 SETTINGS = stage_parameters(make_settings({}), "study")
 CONTRACT = [
@@ -56,30 +59,24 @@ def make_design(name):
     }
 
 
-def write(path, data):
-    path.parent.mkdir(parents=True, exist_ok=True)
-    path.write_text(data if isinstance(data, str) else json.dumps(data), encoding="utf-8")
+LAST = USED | {
+    "reason": "all criteria are met", "utilization_max": 0.95, "utilization_p99": 0.9,
+    "utilization_mean": 0.31, "utilization_panel_mean_max": 0.87,
+    "displacement_vertical_max_m": 0.0312, "area_m2": 1100.0,
+    "buckling_factor": {"S1": 30.0, "S2": 21.5, "S3": None}, "seconds": 1.23,
+    "settings_hash": "0123456789ab",
+}  # fmt: skip
 
 
-def write_results(folder, iterations=3, verdict="converged", state="ok"):
-    write(folder / "folded/quality.json", {"state": state, "reason": "too steep", "seconds": 0.3})
+def write_results(folder, iterations=3, verdict="converged", state="ok", **last):
+    write_record(folder / "folded/quality.json", make_quality(state=state, reason="too steep"))
     for number in range(iterations):
-        analysis = {
-            "iteration": number,
-            "verdict": verdict if number == iterations - 1 else "continue",
-            "reason": "all criteria are met",
-            "utilization_max": 0.95,
-            "utilization_p99": 0.9,
-            "utilization_mean": 0.31,
-            "displacement_vertical_max_m": 0.0312,
+        ends = number == iterations - 1
+        record = make_analysis(**LAST | {
+            "iteration": number, "verdict": verdict if ends else "continue",
             "volume_m3": 90.0 - number,
-            "area_m2": 1100.0,
-            "buckling_factor": {"S1": 30.0, "S2": 21.5, "S3": None},
-            "seconds": 1.23,
-            "mesh_subdivisions": 4,
-            "settings_hash": "0123456789ab",
-        }
-        write(folder / f"sizing/{number:02d}/analysis.json", analysis)
+        } | (last if ends else {}))  # fmt: skip
+        write_analysis(folder / f"sizing/{number:02d}/analysis.json", record)
 
 
 def run(tmp_path, names):
@@ -90,14 +87,18 @@ def run(tmp_path, names):
 
 
 def test_columns_begin_as_in_the_contract():
-    assert list(SUMMARY_KEYS[: len(CONTRACT)]) == CONTRACT
+    assert list(entries(SummaryRow))[: len(CONTRACT)] == CONTRACT
+    assert set(entries(SummaryRow)) > {
+        "utilization_panel_mean_max", "governing_combination", "edited_panels",
+    }  # fmt: skip
 
 
 def test_a_converged_design(tmp_path):
     folder = tmp_path / "results/a"
     write_results(folder)
-    write(folder / "mesh_convergence.json", {"mesh_error": 0.021, "buckling_mesh_error": 0.17})
-    write(folder / "crosscheck/comparison.json", {"pass": True, "quantities": {}})
+    convergence = make_convergence(mesh_error=0.021, buckling_mesh_error=0.17)
+    write_record(folder / "mesh_convergence.json", convergence)
+    write_record(folder / "crosscheck/comparison.json", make_comparison(True))
     (row,) = run(tmp_path, ["a"])
     assert row["state"] == "converged" and row["iterations"] == "3"
     assert float(row["volume_m3"]) == 88.0
@@ -116,9 +117,10 @@ def test_each_ending_has_its_row(tmp_path):
     write_results(results / "crumpled", state="crumpled")
     write_results(results / "cut", iterations=2, verdict="continue")
     write_results(results / "spoilt")
-    write(results / "spoilt/sizing/01/analysis.json", '{"verdict": "conv')
-    write(results / "fine/crosscheck/comparison.json", {"pass": False})
-    write(results / "open/crosscheck/comparison.json", {"pass": None, "reason": "a mechanism"})
+    (results / "spoilt/sizing/01/analysis.json").write_text('{"verdict": "conv')
+    write_record(results / "fine/crosscheck/comparison.json", make_comparison(False))
+    nothing = make_comparison(None, reason="a mechanism")
+    write_record(results / "open/crosscheck/comparison.json", nothing)
     rows = {
         row["design"]: row
         for row in run(tmp_path, [*sorted(p.name for p in results.iterdir()), "none"])

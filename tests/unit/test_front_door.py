@@ -49,7 +49,7 @@ def test_the_examples_of_the_library_page_run(tmp_path, monkeypatch, capsys):
     for example in EXAMPLES:
         exec(example, session)
     sized, said = session["sized"], capsys.readouterr().out
-    assert sized.last["verdict"] in ("converged", "not_converged", "at_minimum_thickness")
+    assert sized.last.verdict in ("converged", "not_converged", "at_minimum_thickness")
     assert "the nearest is material.youngs_modulus_gpa" in said
     assert (tmp_path / "thickness.xlsx").exists() and (tmp_path / "dome.fold").exists()
     assert len(EXAMPLES[0].split("size_shell(shell)")[0].strip().splitlines()) <= 10
@@ -89,6 +89,5 @@ def test_a_shell_by_the_front_door_is_that_of_the_rules(tmp_path):
     target = foldshell.make_target("hypar", 8.0, 2.0)
     folded = foldshell.fold_sheet(foldshell.make_sheet(target, 5, 6), target, settings=settings)
     sized = foldshell.size_shell(foldshell.mesh_shell(folded, "strip", settings))
-    np.testing.assert_array_equal(sized.thickness, expected.arrays["thickness"])
-    for report, other in zip(sized.reports, expected.reports, strict=True):
-        assert report | {"seconds": 0} == other | {"seconds": 0}
+    np.testing.assert_array_equal(sized.thickness, expected.arrays.thickness)
+    assert sized.analyses == tuple(expected.analyses)  # the time they took does not count

@@ -3,8 +3,8 @@
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from foldshell.files.edits import WORKBOOK
 from foldshell.files.job_record import JobRecord
+from foldshell.records.edits import WORKBOOK
 
 
 @dataclass(frozen=True)

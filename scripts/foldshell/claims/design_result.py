@@ -1,7 +1,7 @@
 """The result of a design, its uncertainty, and designs that differ in one thing only."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from itertools import pairwise
 from typing import Any
 
@@ -14,62 +14,77 @@ from foldshell.claims.finding import (
     combine_errors,
     judge_difference,
 )
+from foldshell.records.design_row import DesignRow
+from foldshell.records.entry import entries
+from foldshell.records.measures import Geometry, Measures
+from foldshell.records.quality import QualityMeasures, QualityRecord
 from foldshell.settings.sizing import Sizing
 
 
 @dataclass(frozen=True)
 class Quantity:
-    """Unit in files, unit and factor in tables, and the error it inherits."""
+    """What error a quantity inherits; unit and factor in tables where they are not those of its
+    record."""
 
-    unit: str
-    shown: str
-    factor: float
     error: str
+    shown: str = ""
+    factor: float = 1.0
 
 
 QUANTITIES = {
-    "volume_per_area": Quantity("m", "mm", 1e3, "volume"),
-    "volume": Quantity("m3", "m3", 1, "volume"),
-    "displacement": Quantity("m", "mm", 1e3, "displacement"),
-    "displacement_edge": Quantity("m", "mm", 1e3, "displacement"),
-    "displacement_inner": Quantity("m", "mm", 1e3, "displacement"),
-    "utilization_mean": Quantity("-", "-", 1, "utilization"),
-    "utilization_variation": Quantity("-", "-", 1, "utilization"),
-    "utilization_panel_mean_max": Quantity("-", "-", 1, "utilization"),
-    "buckling_factor": Quantity("-", "-", 1, "buckling"),
-    "strength_factor": Quantity("-", "-", 1, "utilization"),
-    "depth": Quantity("m", "m", 1, "geometry"),
-    "panel_area": Quantity("m2", "m2", 1, "geometry"),
-    "edge_strain_rms": Quantity("-", "%", 100, "geometry"),
-    "angle_defect_max_rad": Quantity("rad", "rad", 1, "geometry"),
-    "flat_foldability_max_rad": Quantity("rad", "rad", 1, "geometry"),
+    "volume_per_area": Quantity("volume", "mm", 1e3),
+    "volume": Quantity("volume"),
+    "displacement": Quantity("displacement", "mm", 1e3),
+    "displacement_edge": Quantity("displacement", "mm", 1e3),
+    "displacement_inner": Quantity("displacement", "mm", 1e3),
+    "utilization_mean": Quantity("utilization"),
+    "utilization_variation": Quantity("utilization"),
+    "utilization_panel_mean_max": Quantity("utilization"),
+    "buckling_factor": Quantity("buckling"),
+    "strength_factor": Quantity("utilization"),
+    "depth": Quantity("geometry"),
+    "panel_area": Quantity("geometry"),
+    "edge_strain_rms": Quantity("geometry", "%", 100),
+    "angle_defect_max_rad": Quantity("geometry"),
+    "flat_foldability_max_rad": Quantity("geometry"),
 }
+
+
+def find_unit(quantity: str) -> str:
+    """Return the unit that a quantity has in files, - for what no record knows."""
+    known = {**entries(QualityMeasures), **entries(Measures)}
+    return known[quantity].unit if quantity in QUANTITIES else "-"
 
 
 @dataclass(frozen=True)
 class DesignResult:
     """A design and what came of it.
 
-    `row` has the columns of designs.tsv, `values` the measures of its state, `errors` the relative
-    mesh error and cross-check difference of displacement, utilization and buckling (None where
-    unknown), `quality` the contents of quality.json, `panels` (2, P) planarity and utilization.
+    `values` are the measures of its state, of a sheet that was only folded those of its geometry;
+    `errors` the relative mesh error and cross-check difference of displacement, utilization and
+    buckling (None where unknown), `panels` (2, P) planarity and utilization.
     """
 
-    row: Mapping[str, Any]
-    values: Mapping[str, Any]
+    row: DesignRow
+    values: Measures | Geometry
     errors: Mapping[str, tuple[float | None, float | None]] = field(default_factory=dict)
-    quality: Mapping[str, Any] = field(default_factory=dict)
+    quality: QualityRecord | None = None
     panels: np.ndarray | None = None
+
+    def measure(self, quantity: str) -> float | None:
+        """Return a quantity by its name, None where it was not measured."""
+        value = getattr(self.values, quantity, None)
+        return getattr(self.quality, quantity, None) if value is None else value
 
     @property
     def name(self) -> str:
         """Name of the design."""
-        return self.row["design"]
+        return self.row.design
 
     @property
     def panel_count(self) -> int:
         """Panels between the polylines."""
-        return (self.row["zigzag"] - 1) * (self.row["strip"] - 1)
+        return self.row.panels
 
 
 def estimate_uncertainty(
@@ -82,7 +97,7 @@ def estimate_uncertainty(
     proportion, and the change of volume `volume_step` that ends the loop, or the last one where
     that is larger; both on the share of panels that do not stand at a bound.
     """
-    value, kind = design_result.values.get(quantity), QUANTITIES[quantity].error
+    value, kind = design_result.measure(quantity), QUANTITIES[quantity].error
     if value is None:
         return None
     if kind == "geometry":
@@ -90,7 +105,7 @@ def estimate_uncertainty(
     if kind != "volume":
         relative = combine_errors(*design_result.errors.get(kind, (None, None)))
         return None if relative is None else abs(value) * relative
-    at_bound = design_result.values.get("panels_at_bound")
+    at_bound = design_result.values.panels_at_bound
     if at_bound is None:
         return None
     free = 1 - at_bound / design_result.panel_count
@@ -98,7 +113,7 @@ def estimate_uncertainty(
         return 0.0
     errors = [combine_errors(*design_result.errors.get(name, (None, None)))
               for name in ("displacement", "utilization")]  # fmt: skip
-    step = max(volume_step, design_result.values.get("volume_change") or 0.0)
+    step = max(volume_step, design_result.values.volume_change or 0.0)
     relative = None if None in errors else combine_errors(max(errors), step)
     return None if relative is None else abs(value) * free * relative
 
@@ -141,14 +156,14 @@ class Comparer:
         both: Sequence[tuple[DesignResult, str]],
         strict: bool = True,
     ) -> Finding:
-        greater, lesser = (design_result.values.get(name) for design_result, name in both)
+        greater, lesser = (design_result.measure(name) for design_result, name in both)
         uncertainty = combine_errors(
             *(
                 estimate_uncertainty(design_result, name, self.volume_step)
                 for design_result, name in both
             )
         )
-        unit = QUANTITIES[both[0][1]].unit
+        unit = find_unit(both[0][1])
         verdict = judge_difference(greater, lesser, uncertainty, strict)
         return Finding(part, designs, quantity, unit, (greater, lesser), uncertainty, verdict)
 
@@ -167,8 +182,8 @@ def state_fact(
     part: str, design: str, quantity: str, value: float | None, limit: float, true: bool
 ) -> Finding:
     """Return a finding that is counted, not measured: it has no uncertainty."""
-    unit = QUANTITIES[quantity].unit if quantity in QUANTITIES else "-"
-    return Finding(part, (design,), quantity, unit, (value, limit), 0.0, HOLDS if true else FAILS)
+    unit, verdict = find_unit(quantity), HOLDS if true else FAILS
+    return Finding(part, (design,), quantity, unit, (value, limit), 0.0, verdict)
 
 
 def select(design_results: Iterable[DesignResult], **columns: Any) -> list[DesignResult]:
@@ -177,7 +192,7 @@ def select(design_results: Iterable[DesignResult], **columns: Any) -> list[Desig
     def fits(design_result: DesignResult) -> bool:
         """Tell whether a result has all of the values."""
         return all(
-            design_result.row[name] in (value if isinstance(value, tuple) else (value,))
+            getattr(design_result.row, name) in (value if isinstance(value, tuple) else (value,))
             for name, value in columns.items()
         )
 
@@ -195,11 +210,12 @@ def group_by_others(
     """Return groups of designs that differ in one column only, {its value: result}, sorted."""
     groups: dict[tuple, dict[Any, DesignResult]] = {}
     for design_result in design_results:
+        row = design_result.row
         others = tuple(
-            value for name, value in sorted(design_result.row.items())
-            if name not in ("design", "tags", column)
+            getattr(row, one.name) for one in fields(row)
+            if one.name not in ("design", "tags", column)
         )  # fmt: skip
-        groups.setdefault(others, {})[design_result.row[column]] = design_result
+        groups.setdefault(others, {})[getattr(row, column)] = design_result
     return [dict(sorted(group.items())) for group in groups.values() if len(group) > 1]
 
 

@@ -2,28 +2,12 @@
 
 import math
 from collections.abc import Iterable, Sequence
-from dataclasses import dataclass
+
+from foldshell.records.claims import Finding
 
 HOLDS, FAILS, MIXED, UNTOLD = "holds", "fails", "mixed", "cannot_be_told"
 ROUNDING = 1e-9
 """Relative difference up to which two numbers count as equal."""
-
-
-@dataclass(frozen=True)
-class Finding:
-    """One statement about one design or two: `part` says it in words.
-
-    `values` are the two numbers compared, or a number and its limit; the statement is that the
-    first is the greater. `uncertainty` has the unit of the values, None where it is not known.
-    """
-
-    part: str
-    designs: tuple[str, ...]
-    quantity: str
-    unit: str
-    values: tuple[float | None, float | None]
-    uncertainty: float | None
-    verdict: str
 
 
 def judge_difference(

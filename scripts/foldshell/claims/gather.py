@@ -2,15 +2,17 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import NamedTuple
+from zipfile import BadZipFile
 
 from foldshell.claims.design_result import DesignResult
 from foldshell.claims.read import read_design_result, read_fold, read_variant
 from foldshell.files.errors import InputError
-from foldshell.files.whole import read_json
+from foldshell.records.design_row import DesignRow
+from foldshell.records.files import REMEDY, read_record
+from foldshell.records.kinematics import KinematicsRecord
+from foldshell.records.measures import FlatEqualRecord
 from foldshell.settings.stage import StageSettings
-
-Rows = Sequence[Mapping[str, Any]]
 
 
 class Sources(NamedTuple):
@@ -19,13 +21,16 @@ class Sources(NamedTuple):
     design_results: list[DesignResult]
     equal: list[DesignResult]
     folds: list[DesignResult]
-    kinematics: Mapping[str, Any]
-    flats: dict[str, Mapping[str, Any]]
+    kinematics: KinematicsRecord
+    flats: dict[str, FlatEqualRecord]
     variants: dict[str, list[DesignResult]]
 
 
 def read_sources(
-    results: Path, designs: Mapping[str, Rows], variants: Sequence[str], settings: StageSettings
+    results: Path,
+    designs: Mapping[str, Sequence[DesignRow]],
+    variants: Sequence[str],
+    settings: StageSettings,
 ) -> Sources:
     """Read designs in full, folds, kinematics, flat sheets and runs with other settings.
 
@@ -35,32 +40,33 @@ def read_sources(
         for a file that is missing or damaged.
     """
     try:
-        both = [
-            read_design_result(row, results / row["design"], settings) for row in designs["sized"]
-        ]
-        named = {final.name: final for final, _ in both}
-        return Sources(
-            [final for final, _ in both],
-            [start for _, start in both],
-            [read_fold(row, results / row["design"]) for row in designs["folds"]],
-            read_json(results / "kinematics.json"),
-            {
-                row["design"]: read_json(results / row["design"] / "flat_equal.json")
-                for row in designs["flats"]
-            },
-            {
-                variant: [
-                    read_variant(
-                        named[row["design"]],
-                        read_json(results / "sensitivity" / variant / f"{row['design']}.json"),
-                    )
-                    for row in designs["runs"]
-                ]
-                for variant in variants
-            },
-        )
-    except (OSError, ValueError, KeyError) as error:
-        raise InputError(
-            f"claims: {getattr(error, 'filename', None) or error}: missing or damaged: delete it "
-            "and start again, it is computed anew"
-        ) from None
+        return _read(results, designs, variants, settings)
+    except InputError:
+        raise
+    except (OSError, ValueError, KeyError, BadZipFile) as error:
+        found = getattr(error, "filename", None) or error
+        raise InputError(f"claims: {found}: missing or damaged: {REMEDY}") from None
+
+
+def _read(results: Path, designs, variants, settings) -> Sources:
+    both = [read_design_result(row, results / row.design, settings) for row in designs["sized"]]
+    named = {final.name: final for final, _ in both}
+    return Sources(
+        design_results=[final for final, _ in both],
+        equal=[start for _, start in both],
+        folds=[read_fold(row, results / row.design) for row in designs["folds"]],
+        kinematics=read_record(results / "kinematics.json", KinematicsRecord),
+        flats={
+            row.design: read_record(results / row.design / "flat_equal.json", FlatEqualRecord)
+            for row in designs["flats"]
+        },
+        variants={
+            variant: [
+                read_variant(
+                    named[row.design], results / "sensitivity" / variant / f"{row.design}.json"
+                )
+                for row in designs["runs"]
+            ]
+            for variant in variants
+        },
+    )

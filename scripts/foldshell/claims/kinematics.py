@@ -1,8 +1,7 @@
 """Claims on folding: C1, C2, C3 and C14."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from itertools import product
-from typing import Any
 
 from foldshell.claims.design_result import (
     Comparer,
@@ -15,6 +14,7 @@ from foldshell.claims.design_result import (
 from foldshell.claims.finding import FAILS, HOLDS, Finding, judge_difference
 from foldshell.claims.statement import Claim
 from foldshell.claims.words import verdict_label
+from foldshell.records.kinematics import ForceRatioTrial, KinematicsRecord, SheetRecord
 
 SOFT_SHAPES = {"twist", "saddle"}
 ISOMETRIC = 1e-6
@@ -30,14 +30,14 @@ RESPECTED_LIMIT = 1e-3
 and plate of a metre open by a millimetre."""
 
 
-def judge_auxetic(kinematics: Mapping[str, Any]) -> Claim:
+def judge_auxetic(kinematics: KinematicsRecord) -> Claim:
     """C1: in-plane ratio of finite folding steps; its uncertainty is the gap to the closed form."""
     part = "negative in-plane Poisson's ratio"
     findings = []
-    for row in kinematics["ratios"]:
-        gap = abs(row["in_plane"] - row["in_plane_exact"])
-        values = 0.0, row["in_plane"]
-        name = f"Miura cell folded by {row['fold_angle_deg']:.4g} deg"
+    for row in kinematics.ratios:
+        gap = abs(row.in_plane - row.in_plane_exact)
+        values = 0.0, row.in_plane
+        name = f"Miura cell folded by {row.fold_angle_deg:.4g} deg"
         verdict = judge_difference(*values, gap)
         findings.append(Finding(part, (name,), "zero, in-plane ratio", "-", values, gap, verdict))
     method = "a finite step of folding against the closed form"
@@ -45,15 +45,15 @@ def judge_auxetic(kinematics: Mapping[str, Any]) -> Claim:
 
 
 def judge_soft_modes(
-    kinematics: Mapping[str, Any], design_results: Sequence[DesignResult], comparer: Comparer
+    kinematics: KinematicsRecord, design_results: Sequence[DesignResult], comparer: Comparer
 ) -> Claim:
     """C2: the two softest modes of each sheet, bending without distortion, strain of designs."""
     findings = []
-    for sheet in kinematics["sheets"]:
-        name = f"Miura sheet {sheet['zigzag']}x{sheet['strip']}"
+    for sheet in kinematics.sheets:
+        name = f"Miura sheet {sheet.zigzag}x{sheet.strip}"
         findings += _find_soft(name, sheet)
         for shape in ("dome", "arch"):
-            values = sheet["isometry_residual"][shape], sheet["isometry_residual"]["saddle"]
+            values = sheet.isometry_residual[shape], sheet.isometry_residual["saddle"]
             part, verdict = f"{shape} costs distortion", judge_difference(*values, ISOMETRIC)
             names = "isometry residual, that of the saddle"
             findings.append(Finding(part, (name,), names, "-", values, ISOMETRIC, verdict))
@@ -67,17 +67,17 @@ def judge_soft_modes(
     return Claim("C2", findings, method=method)
 
 
-def _find_soft(name: str, sheet: Mapping[str, Any]) -> list[Finding]:
+def _find_soft(name: str, sheet: SheetRecord) -> list[Finding]:
     """Return whether the two softest modes are twist and saddle, for each panel stiffness."""
     found = []
-    for ratio in dict.fromkeys(mode["panel_over_crease"] for mode in sheet["modes"]):
-        modes = [mode for mode in sheet["modes"] if mode["panel_over_crease"] == ratio]
-        first, third = modes[:2], modes[2]["stiffness"] if len(modes) > 2 else None
-        verdict = HOLDS if {mode["shape"] for mode in first} == SOFT_SHAPES else FAILS
+    for ratio in dict.fromkeys(mode.panel_over_crease for mode in sheet.modes):
+        modes = [mode for mode in sheet.modes if mode.panel_over_crease == ratio]
+        first, third = modes[:2], modes[2].stiffness if len(modes) > 2 else None
+        verdict = HOLDS if {mode.shape for mode in first} == SOFT_SHAPES else FAILS
         design = f"{name}, panels {ratio:g} times as stiff as creases"
         part = "twist and saddle are the softest"
         quantity = "stiffness over that of twist: third mode, second mode"
-        values = third, first[-1]["stiffness"]
+        values = third, first[-1].stiffness
         found.append(Finding(part, (design,), quantity, "-", values, 0.0, verdict))
     return found
 
@@ -96,29 +96,29 @@ READING = (
 )
 
 
-def judge_force_ratios(kinematics: Mapping[str, Any]) -> Claim:
+def judge_force_ratios(kinematics: KinematicsRecord) -> Claim:
     """C3: self-stresses of rigid quadrilaterals; which strengths fold them, and triangles.
 
     Both engines have to agree; a note gives the verdict of each by itself.
     """
     stresses = []
-    for sheet in kinematics["sheets"]:
-        counts = [sheet[name]["self_stresses"] for name in ("rigid_panels", "bending_panels")]
-        name = f"Miura sheet {sheet['zigzag']}x{sheet['strip']}"
+    for sheet in kinematics.sheets:
+        counts = [one.self_stresses for one in (sheet.rigid_panels, sheet.bending_panels)]
+        name = f"Miura sheet {sheet.zigzag}x{sheet.strip}"
         verdict = HOLDS if counts[0] > 0 and counts[1] == 0 else FAILS
         quantity = "self-stresses: quadrilaterals, triangles"
         values = tuple(counts)
         stresses.append(Finding(CONSTRAINED, (name,), quantity, "-", values, 0.0, verdict))
     aside = tuple(_name_part(kind, "folded") for kind in KINDS)
-    engines: dict[str, list[Mapping[str, Any]]] = {}
-    for row in kinematics["force_ratios"]:
-        engines.setdefault(verdict_label(row["engine"]), []).append(row)
+    engines: dict[str, list[ForceRatioTrial]] = {}
+    for row in kinematics.force_ratios:
+        engines.setdefault(verdict_label(row.engine), []).append(row)
     shares, notes = [], [READING]
     for engine, rows in engines.items():
         found = _find_force_ratios(engine, rows)
         shares += found
         alone, _ = Claim("C3", [*stresses, *found], open=aside).judge()
-        most = max(row["iterations"] for row in rows)
+        most = max(row.iterations for row in rows)
         words = f"{verdict_label(alone)}, from {len(rows)} foldings of at most {most} iterations"
         notes.append(f"By {engine} alone: {words}.")
     return Claim("C3", [*stresses, *shares], open=aside, notes=tuple(notes))
@@ -128,13 +128,13 @@ def _name_part(kind: str, measure: str) -> str:
     return f"{kind} {MEASURES[measure]} at {KINDS[kind]}"
 
 
-def _find_force_ratios(engine: str, rows: Sequence[Mapping[str, Any]]) -> list[Finding]:
+def _find_force_ratios(engine: str, rows: Sequence[ForceRatioTrial]) -> list[Finding]:
     """Return the share of the strengths by which an engine folds each mesh on each surface."""
     found = []
-    surfaces = dict.fromkeys(row["surface"] for row in rows)
+    surfaces = dict.fromkeys(row.surface for row in rows)
     for measure, kind, surface in product(MEASURES, KINDS, surfaces):
         folded = [
-            row[measure] for row in rows if (row["panels"], row["surface"]) == (kind, surface)
+            getattr(row, measure) for row in rows if (row.panels, row.surface) == (kind, surface)
         ]
         share = sum(folded) / len(folded)
         true = share == 1 if kind == "triangles" else 0 < share < 1
@@ -151,10 +151,10 @@ def judge_foldability(design_results: Sequence[DesignResult]) -> Claim:
     """
     findings, aside = [], []
     for one in select(design_results, pattern="miura"):
-        mode = one.row["fold_mode"]
+        mode = one.row.fold_mode
         for name, quantities in RESPECTED.items():
-            worst = max(quantities, key=lambda quantity: one.quality[quantity])
-            value = one.quality[worst]
+            worst = max(quantities, key=one.measure)
+            value = one.measure(worst)
             part = name if mode == "elastic" else f"{name}, mode {mode}"
             true = value <= RESPECTED_LIMIT
             findings.append(state_fact(part, one.name, worst, value, RESPECTED_LIMIT, true))

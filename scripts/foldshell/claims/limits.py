@@ -2,8 +2,7 @@
 
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
-from typing import Any
+from dataclasses import fields, replace
 
 from foldshell.claims.design_result import (
     Comparer,
@@ -15,6 +14,8 @@ from foldshell.claims.design_result import (
 )
 from foldshell.claims.finding import HOLDS, Finding, judge_many
 from foldshell.claims.statement import Claim
+from foldshell.records.claims import ClaimNumbers
+from foldshell.records.measures import FlatEqualRecord, FlatSheet
 
 
 def judge_buckling(design_results: Sequence[DesignResult], comparer: Comparer) -> Claim:
@@ -26,8 +27,8 @@ def judge_buckling(design_results: Sequence[DesignResult], comparer: Comparer) -
     designs = [_with_strength(one) for one in select_folded(design_results)]
     findings = []
     for one in designs:
-        low = {"utilization_mean": comparer.utilization_min}
-        limit = replace(one, values={**one.values, **low}, errors=NO_ERRORS)
+        least = replace(one.values, utilization_mean=comparer.utilization_min)
+        limit = replace(one, values=least, errors=NO_ERRORS)
         found = comparer.compare(LOW, limit, one, "utilization_mean")
         names = "limit, utilization_mean"
         findings.append(replace(found, designs=(one.name,), quantity=names))
@@ -35,7 +36,7 @@ def judge_buckling(design_results: Sequence[DesignResult], comparer: Comparer) -
     findings += [
         comparer.compare_within(part, one, "strength_factor", "buckling_factor") for one in designs
     ]
-    held = {"held_by": count_bindings(designs, comparer)}
+    held = ClaimNumbers(held_by=count_bindings(designs, comparer))
     note = "The verdict is that of the reason given, buckling; low utilization stands beside it."
     return Claim("C10", findings, open=(LOW,), notes=(note,), numbers=held)
 
@@ -46,11 +47,9 @@ NO_ERRORS = {name: (0.0, 0.0) for name in ("displacement", "utilization", "buckl
 
 def _with_strength(design_result: DesignResult) -> DesignResult:
     """Add the load factor at which the mean of a panel reaches the strength."""
-    highest = design_result.values.get("utilization_panel_mean_max")
-    return replace(
-        design_result,
-        values={**design_result.values, "strength_factor": 1 / highest if highest else None},
-    )
+    highest = design_result.values.utilization_panel_mean_max
+    strength = 1 / highest if highest else None
+    return replace(design_result, values=replace(design_result.values, strength_factor=strength))
 
 
 def count_bindings(design_results: Sequence[DesignResult], comparer: Comparer) -> dict[str, int]:
@@ -64,15 +63,15 @@ def count_bindings(design_results: Sequence[DesignResult], comparer: Comparer) -
 def find_bindings(design_result: DesignResult, comparer: Comparer) -> list[str]:
     """Return what keeps a design from being thinner: limits reached to 90 %, or least thickness."""
     values, names = design_result.values, []
-    if values["displacement"] is None:
-        return [values["state"]]
-    if values["displacement"] > 0.9 * design_result.row["span_m"] / comparer.displacement_span_over:
+    if values.displacement is None:
+        return [values.state]
+    if values.displacement > 0.9 * design_result.row.span_m / comparer.displacement_span_over:
         names.append("displacement")
-    if values["utilization_panel_mean_max"] > 0.9:
+    if values.utilization_panel_mean_max > 0.9:
         names.append("utilization of a panel")
-    if values["panels_at_bound"] == design_result.panel_count:
+    if values.panels_at_bound == design_result.panel_count:
         names.append("least thickness in every panel")
-    factor = values["buckling_factor"]
+    factor = values.buckling_factor
     if factor is not None and factor < comparer.buckling_factor_min:
         names.append("buckling factor")
     return names or ["none of these"]
@@ -84,14 +83,14 @@ def judge_free_edges(design_results: Sequence[DesignResult]) -> Claim:
     many, place = "many do not reach utilization 1", "panels above 1 stand at free edges"
     findings = []
     for one in designs:
-        above = one.values["above_one"]
+        above = one.values.above_one
         over = above is None or above > 0
         findings.append(state_fact(many, one.name, "panels above 1", above, 0.0, over))
         if above:
-            share = one.values["above_one_at_free_edge"] / above
+            share = one.values.above_one_at_free_edge / above
             found = state_fact(place, one.name, "share of them", share, 0.5, share > 0.5)
             findings.append(found)
-    peaks = sum((one.values["utilization_max"] or 0) > 1 for one in designs)
+    peaks = sum((one.values.utilization_max or 0) > 1 for one in designs)
     note = (
         "Not to reach utilization 1 is read as to end with panels above it, by the measure that "
         f"the loop limits; single points exceed 1 in {peaks} of {len(designs)} designs."
@@ -123,7 +122,7 @@ LARGE = (
 
 def judge_folds(
     design_results: Sequence[DesignResult],
-    flats: Mapping[str, Mapping[str, Any]],
+    flats: Mapping[str, FlatEqualRecord],
     comparer: Comparer,
 ) -> Claim:
     """C13: a sized folded sheet against the flat sheet with the same volume of material.
@@ -136,18 +135,18 @@ def judge_folds(
         flat = flats.get(one.name)
         if flat is None:
             continue
-        other = DesignResult({**one.row, "design": flat["flat"]}, flat["measures"], flat["errors"])
+        other = DesignResult(replace(one.row, design=flat.flat), flat.measures, flat.errors)
         found = comparer.compare(FOLDED, other, one, "displacement")
-        stands = flat["measures"]["displacement"] is not None
+        stands = flat.measures.displacement is not None
         findings.append(found if stands else _fallen(found, flat))
-        numbers[one.name] = {name: flat[name] for name in NUMBERS}
+        numbers[one.name] = FlatSheet(**{k.name: getattr(flat, k.name) for k in fields(FlatSheet)})
     findings += [
         comparer.compare(SIZED, group["flat"], group["miura"], "volume")
         for group in group_by_others(design_results, "pattern")
         if {"flat", "miura"} <= set(group)
     ]
     notes = (UNFOLDED, LARGE, *_describe_ratio(findings))
-    return Claim("C13", findings, open=(SIZED,), notes=notes, numbers={"flat": numbers})
+    return Claim("C13", findings, open=(SIZED,), notes=notes, numbers=ClaimNumbers(flat=numbers))
 
 
 def _describe_ratio(findings: Sequence[Finding]) -> list[str]:
@@ -160,18 +159,6 @@ def _describe_ratio(findings: Sequence[Finding]) -> list[str]:
     )
 
 
-NUMBERS = (
-    "flat",
-    "state",
-    "thickness_m",
-    "volume_m3",
-    "area_m2",
-    "sides_m",
-    "displacement_first_order_m",
-    "measures",
-)
-
-
-def _fallen(found: Finding, flat: Mapping[str, Any]) -> Finding:
-    values = flat["displacement_first_order_m"], found.values[1]
+def _fallen(found: Finding, flat: FlatEqualRecord) -> Finding:
+    values = flat.displacement_first_order_m, found.values[1]
     return replace(found, values=values, uncertainty=None, verdict=HOLDS)

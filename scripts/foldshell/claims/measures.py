@@ -2,10 +2,12 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from foldshell.records.analysis import AnalysisRecord
+from foldshell.records.analysis_arrays import AnalysisArrays
+from foldshell.records.measures import Measures
 from foldshell.settings.loads import Combinations
 
 SCALARS = (
@@ -43,66 +45,58 @@ class Layout:
 def measure_state(
     mesh: Mapping[str, np.ndarray],
     layout: Layout,
-    report: Mapping[str, Any],
-    fields: Mapping[str, np.ndarray],
+    report: AnalysisRecord,
+    arrays: AnalysisArrays,
     combinations: Combinations,
     measure: str,
-) -> dict[str, Any]:
+) -> Measures:
     """Return all measures of an analysed state; those of an answer it did not give are None.
 
-    `mesh`, `report` and `fields` are the contents of mesh.npz, analysis.json and analysis.npz,
-    `combinations` has the groups strength and deflection.
+    `mesh` are the arrays of mesh.npz, `combinations` has the groups strength and deflection.
     """
     count = len(combinations.deflection)
-    return {
-        **measure_report(report, combinations.strength),
-        **measure_fields(mesh, layout, fields, measure),
-        **measure_edge_displacement(mesh, layout, fields.get("translations"), count),
-    }
+    factors = [report.buckling_factor[name] for name in combinations.strength]
+    change = report.criteria.volume_change_relative
+    return Measures(
+        state=report.verdict,
+        reason=report.reason,
+        iterations=report.iteration + 1,
+        volume=report.volume_m3,
+        volume_per_area=report.volume_m3 / report.area_m2,
+        volume_change=change and change.value,
+        displacement=report.displacement_vertical_max_m,
+        buckling_factor=min((factor for factor in factors if factor is not None), default=None),
+        **{name: getattr(report, name) for name in SCALARS},
+        panel_area=float(measure_panel_areas(mesh, layout).mean()),
+        **measure_utilization(mesh, layout, arrays, measure),
+        **measure_edge_displacement(mesh, layout, arrays.translations, count),
+    )
 
 
-def measure_report(report: Mapping[str, Any], strength: Mapping[str, Any]) -> dict[str, Any]:
-    """Return the numbers that analysis.json alone gives (m, m3, -); None where it has none.
-
-    `strength` are the strength combinations; the least buckling factor is over these.
-    """
-    factors = [report["buckling_factor"][name] for name in strength]
-    known = [factor for factor in factors if factor is not None]
-    return {
-        "state": report["verdict"],
-        "reason": report["reason"],
-        "iterations": report["iteration"] + 1,
-        "volume": report["volume_m3"],
-        "volume_per_area": report["volume_m3"] / report["area_m2"],
-        "volume_change": report["criteria"].get("volume_change_relative", {}).get("value"),
-        "displacement": report.get("displacement_vertical_max_m"),
-        "buckling_factor": min(known, default=None),
-        **{name: report.get(name) for name in SCALARS},
-    }
-
-
-def measure_fields(
-    mesh: Mapping[str, np.ndarray], layout: Layout, fields: Mapping[str, np.ndarray], measure: str
-) -> dict[str, Any]:
-    """Return the numbers that need panels and nodes; None where the analysis gave no answer.
-
-    Parameters
-    ----------
-    mesh : arrays of mesh.npz
-    fields : arrays of analysis.npz
-    measure : utilization of a panel that limits hold for, panel_mean or element_max
-    """
+def measure_panel_areas(mesh: Mapping[str, np.ndarray], layout: Layout) -> np.ndarray:
+    """Return the areas of the sheet's panels (P,) m2."""
     area = np.bincount(mesh["facet_panel"], facet_areas(mesh["vertices"], mesh["facets"]))
-    area = area[: layout.panels]
-    used = fields.get("utilization_panel_mean")
-    result: dict[str, Any] = {"panel_area": float(area.mean())}
-    result |= dict.fromkeys(("utilization_variation", "above_one", "above_one_at_free_edge"))
-    if used is not None:
-        above = fields[f"utilization_{measure}"] > 1
-        result["utilization_variation"] = weighted_variation(used, area)
-        result["above_one"] = int(above.sum())
-        result["above_one_at_free_edge"] = int((above & layout.free_edge_panels).sum())
-    return result
+    return area[: layout.panels]
+
+
+def measure_utilization(
+    mesh: Mapping[str, np.ndarray], layout: Layout, arrays: AnalysisArrays, measure: str
+) -> dict[str, float | int | None]:
+    """Return how even panels are used, and how many are above 1; None without an answer.
+
+    `mesh` are the arrays of mesh.npz; `measure` is the utilization of a panel that limits hold
+    for, panel_mean or element_max.
+    """
+    used = arrays.utilization_panel_mean
+    if used is None:
+        names = ("utilization_variation", "above_one", "above_one_at_free_edge")
+        return dict.fromkeys(names)
+    above = arrays.utilization(measure) > 1
+    return {
+        "utilization_variation": weighted_variation(used, measure_panel_areas(mesh, layout)),
+        "above_one": int(above.sum()),
+        "above_one_at_free_edge": int((above & layout.free_edge_panels).sum()),
+    }
 
 
 def measure_edge_displacement(

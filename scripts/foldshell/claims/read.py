@@ -1,88 +1,94 @@
 """Outcomes of designs from the files under results/<design>."""
 
-from collections.abc import Mapping
-from dataclasses import replace
+from dataclasses import fields, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from foldshell.claims.design_result import DesignResult
 from foldshell.claims.measures import Layout, measure_depth, measure_state
-from foldshell.files.whole import read_arrays, read_json
+from foldshell.files.whole import read_arrays
 from foldshell.pattern.angles import flat_foldability_residual
 from foldshell.pattern.grid import build_grid
+from foldshell.records.comparison import read_comparison
+from foldshell.records.design_row import DesignRow
+from foldshell.records.files import read_record
+from foldshell.records.iteration import read_iteration
+from foldshell.records.measures import Geometry, VariantRecord
+from foldshell.records.mesh_convergence import MeshConvergenceRecord
+from foldshell.records.quality import QualityRecord
 from foldshell.settings.crosscheck import Crosscheck
 from foldshell.settings.stage import StageSettings
 
 Errors = dict[str, tuple[float | None, float | None]]
 
 
-def make_layout(row: Mapping[str, Any]) -> Layout:
+def make_layout(row: DesignRow) -> Layout:
     """Return counts of polylines and supports of a design."""
-    return Layout(row["zigzag"], row["strip"], row["support"])
+    return Layout(row.zigzag, row.strip, row.support)
 
 
-def read_fold(row: Mapping[str, Any], folder: str | Path) -> DesignResult:
-    """Read what the folding alone says of a design."""
+def read_fold(row: DesignRow, folder: str | Path) -> DesignResult:
+    """Read what the folding alone says of a design; raises `InputError` for a damaged file."""
     folded = read_arrays(Path(folder, "folded/folded.npz"))
-    quality = read_json(Path(folder, "folded/quality.json"))
-    values = {"edge_strain_rms": quality["edge_strain_rms"]}
-    if row["pattern"] == "miura":
-        size = row["zigzag"], row["strip"]
+    quality = read_record(Path(folder, "folded/quality.json"), QualityRecord)
+    values = Geometry(edge_strain_rms=quality.edge_strain_rms)
+    if row.pattern == "miura":
+        size = row.zigzag, row.strip
         residual = flat_foldability_residual(folded["vertices"], build_grid(*size))
-        quality["flat_foldability_max_rad"] = float(np.abs(residual).max())
-        values["depth"] = measure_depth(folded["vertices"], *size)
+        values = replace(
+            values,
+            depth=measure_depth(folded["vertices"], *size),
+            flat_foldability_max_rad=float(np.abs(residual).max()),
+        )
     return DesignResult(row, values, quality=quality)
 
 
 def read_design_result(
-    row: Mapping[str, Any], folder: str | Path, settings: StageSettings
+    row: DesignRow, folder: str | Path, settings: StageSettings
 ) -> tuple[DesignResult, DesignResult]:
     """Read the final state of a design, and its state at the start, of one thickness."""
     folder = Path(folder)
     fold = read_fold(row, folder)
     mesh = read_arrays(folder / "shell/mesh.npz")
-    states = []
-    for path in (folder / "sizing/final", folder / "sizing/00/analysis"):
-        report, fields = read_json(path.with_suffix(".json")), read_arrays(path.with_suffix(".npz"))
-        measures = measure_state(
-            mesh,
-            make_layout(row),
-            report,
-            fields,
-            settings.combinations,
-            settings.sizing.measure,
-        )
-        states.append(replace(fold, values={**fold.values, **measures}))
-        if path.name == "final" and "utilization_panel_mean" in fields and "depth" in fold.values:
-            planarity = read_arrays(folder / "folded/folded.npz")["planarity"]
-            panels = np.stack([planarity, fields["utilization_panel_mean"]])
-            states[0] = replace(states[0], panels=panels)
+    last, first = (
+        read_iteration(folder / f"sizing/{name}.json") for name in ("final", "00/analysis")
+    )
+    how = settings.combinations, settings.sizing.measure
     errors = read_errors(folder, settings.crosscheck)
-    return replace(states[0], errors=errors), replace(states[1], errors=errors)
+    measured = [measure_state(mesh, make_layout(row), *state, *how) for state in (last, first)]
+    final, start = (
+        replace(fold, values=replace(measures, **vars(fold.values)), errors=errors)
+        for measures in measured
+    )
+    used = last[1].utilization_panel_mean
+    if used is not None and fold.values.depth is not None:
+        planarity = read_arrays(folder / "folded/folded.npz")["planarity"]
+        final = replace(final, panels=np.stack([planarity, used]))
+    return final, start
 
 
-def read_variant(design_result: DesignResult, report: Mapping[str, Any]) -> DesignResult:
-    """Return the result under another setting, with the relative errors of the design."""
-    return replace(design_result, values={**design_result.values, **report["measures"]})
+def read_variant(design_result: DesignResult, path: str | Path) -> DesignResult:
+    """Return the result under another setting, with the geometry and errors of the design."""
+    measures = read_record(path, VariantRecord).measures
+    geometry = {one.name: getattr(design_result.values, one.name) for one in fields(Geometry)}
+    return replace(design_result, values=replace(measures, **geometry))
 
 
 def read_errors(folder: Path, chosen: Crosscheck) -> Errors:
     """Read relative mesh error and cross-check difference of the compared combinations."""
-    study = read_json(folder / "mesh_convergence.json")
-    comparison = read_json(folder / "crosscheck/comparison.json").get("quantities") or {}
+    errors = read_record(folder / "mesh_convergence.json", MeshConvergenceRecord).errors
+    compared = read_comparison(folder / "crosscheck/comparison.json").quantities
     strength, deflection = chosen.strength, chosen.deflection
 
     def pick(combination: str, quantity: str) -> tuple[float | None, float | None]:
         """Return relative mesh error and cross-check difference of one quantity."""
         names = f"{combination} Th.II {quantity}", f"{combination} {quantity}"
-        found = next((comparison[name] for name in names if name in comparison), {})
-        own = (study.get("errors") or {}).get(combination, {})
-        error = own.get(quantity)
+        found = next((compared[name] for name in names if name in compared), None)
+        error = errors.get(combination, {}).get(quantity)
         if error is None and found:
-            error = _relative(found["primary_meshes"][0], found["primary"])
-        return error, found.get("relative_difference")
+            error = _relative(found.primary_meshes[0], found.primary)
+        return error, found and found.relative_difference
 
     return {
         "displacement": pick(deflection, "displacement_down_max_m"),

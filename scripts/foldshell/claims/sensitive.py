@@ -2,13 +2,13 @@
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
-from typing import Any
 
 from foldshell.claims import limits, structure
 from foldshell.claims.design_result import Comparer, DesignResult
 from foldshell.claims.finding import UNTOLD
 from foldshell.claims.statement import Claim
 from foldshell.claims.words import verdict_label
+from foldshell.records.claims import JudgedParts, JudgedVariants
 
 BASE = "base"
 Judgement = Callable[[Sequence[DesignResult], Comparer], Claim]
@@ -28,7 +28,7 @@ SENSITIVE: dict[str, Judgement] = {
 
 def judge_variants(
     key: str, variants: Mapping[str, Sequence[DesignResult]], comparer: Comparer
-) -> dict[str, Any] | None:
+) -> JudgedVariants | None:
     """Return the verdicts of a claim under every variant, on the designs that were run.
 
     None where the claim knows no setting of the loop, or none of its designs was run.
@@ -43,29 +43,27 @@ def judge_variants(
     verdicts = {}
     for name, claim in claims.items():
         verdict, parts = claim.judge()
-        verdicts[name] = {"verdict": verdict, "parts": parts}
+        verdicts[name] = JudgedParts(verdict=verdict, parts=parts)
     changes = {name: _find_changes(verdicts[BASE], found) for name, found in verdicts.items()}
-    return {
-        "designs": sorted({name for f in claims[BASE].findings for name in f.designs}),
-        "verdicts": verdicts,
-        "changes": {name: found for name, found in changes.items() if found},
-    }
+    return JudgedVariants(
+        designs=tuple(sorted({name for f in claims[BASE].findings for name in f.designs})),
+        verdicts=verdicts,
+        changes={name: found for name, found in changes.items() if found},
+    )
 
 
-def _find_changes(base: Mapping[str, Any], found: Mapping[str, Any]) -> dict[str, str]:
+def _find_changes(base: JudgedParts, found: JudgedParts) -> dict[str, str]:
     """Return the verdicts, of the claim and of its parts, that differ from those of the base."""
-    claim = {"the claim": found["verdict"]} if found["verdict"] != base["verdict"] else {}
+    claim = {"the claim": found.verdict} if found.verdict != base.verdict else {}
     parts = {
-        part: verdict
-        for part, verdict in found["parts"].items()
-        if base["parts"].get(part) != verdict
+        part: verdict for part, verdict in found.parts.items() if base.parts.get(part) != verdict
     }
     return claim | parts
 
 
 def judge_equal_thickness(
     key: str, equal: Sequence[DesignResult], comparer: Comparer
-) -> dict[str, Any] | None:
+) -> JudgedParts | None:
     """Return the verdicts of a claim on the start states, all panels of one thickness.
 
     Neither start nor least thickness, stop rule nor measure enters; volumes say nothing there.
@@ -75,13 +73,13 @@ def judge_equal_thickness(
     claim = SENSITIVE[key](equal, comparer)
     kept = [f for f in claim.findings if not f.quantity.startswith("volume")]
     verdict, parts = replace(claim, findings=kept).judge()
-    return {"verdict": verdict, "parts": parts}
+    return JudgedParts(verdict=verdict, parts=parts)
 
 
 def describe_dependence(
     claim: Claim,
-    runs: Mapping[str, Any] | None,
-    equal: Mapping[str, Any] | None,
+    runs: JudgedVariants | None,
+    equal: JudgedParts | None,
     variants: Mapping[str, Sequence[DesignResult]],
 ) -> str:
     """Say in words how far a verdict depends on the settings."""
@@ -91,10 +89,10 @@ def describe_dependence(
     if runs is None:
         words.append(f"No run with other settings answers this claim{_spread(variants)}.")
     else:
-        base, changes = runs["verdicts"][BASE]["verdict"], runs["changes"]
-        count = len(runs["designs"])
+        base, changes = runs.verdicts[BASE].verdict, runs.changes
+        count = len(runs.designs)
         words.append(f"On the {count} designs run with other settings: {verdict_label(base)}")
-        same = [name for name in runs["verdicts"] if name != BASE and name not in changes]
+        same = [name for name in runs.verdicts if name != BASE and name not in changes]
         if same:
             words[-1] += f", with the same verdicts of all parts for {', '.join(same)}"
         changed = [
@@ -102,17 +100,17 @@ def describe_dependence(
             for name, found in changes.items()
         ]
         words[-1] += f"; {'; '.join(changed)}." if changed else "."
-    if equal is not None and equal["verdict"] != UNTOLD:
-        parts = ", ".join(f"{part}: {verdict_label(v)}" for part, v in equal["parts"].items())
+    if equal is not None and equal.verdict != UNTOLD:
+        parts = ", ".join(f"{part}: {verdict_label(v)}" for part, v in equal.parts.items())
         words.append(f"At one thickness for all panels, before any sizing: {parts}.")
     return " ".join(words)
 
 
 def _spread(variants: Mapping[str, Sequence[DesignResult]]) -> str:
     """Return how much volumes change between those runs, for a reader to weigh differences by."""
-    base = {one.name: one.values["volume"] for one in variants.get(BASE, ())}
+    base = {one.name: one.values.volume for one in variants.get(BASE, ())}
     changes = {
-        name: max((abs(o.values["volume"] / base[o.name] - 1) for o in members), default=0.0)
+        name: max((abs(o.values.volume / base[o.name] - 1) for o in members), default=0.0)
         for name, members in variants.items()
         if base and name != BASE
     }

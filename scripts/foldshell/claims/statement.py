@@ -1,8 +1,7 @@
 """A claim as it leaves the study: verdict, findings by part, what it rests on."""
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass, field
-from typing import Any
+from dataclasses import dataclass, field, replace
 
 from foldshell.claims.finding import (
     Finding,
@@ -10,6 +9,7 @@ from foldshell.claims.finding import (
     judge_claim,
     judge_part,
 )
+from foldshell.records.claims import ClaimNumbers, ClaimRecord, PartRecord, Uncertainty
 
 Judge = Callable[[Sequence[Finding]], str]
 STATEMENTS = {
@@ -45,7 +45,7 @@ class Claim:
     judges: Mapping[str, Judge] = field(default_factory=dict)
     open: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
-    numbers: Mapping[str, Any] = field(default_factory=dict)
+    numbers: ClaimNumbers = field(default_factory=ClaimNumbers)
     method: str | None = None
 
     @property
@@ -65,27 +65,31 @@ class Claim:
         return judge_claim(v for part, v in parts.items() if part not in self.open), parts
 
 
-def describe_claim(claim: Claim) -> dict[str, Any]:
-    """Return id, claim, verdict, numbers, designs, uncertainty and notes as plain data."""
+def describe_claim(claim: Claim) -> ClaimRecord:
+    """Return the entry of claims.json, without what settings change."""
     verdict, verdicts = claim.judge()
-    findings = [asdict(finding) for part in claim.parts.values() for finding in part]
-    parts = [
-        {"part": part, "verdict": verdicts[part], "asserted": part not in claim.open}
-        | count_verdicts(findings)
-        for part, findings in claim.parts.items()
-    ]
-    return {
-        "id": claim.key,
-        "claim": STATEMENTS[claim.key],
-        "verdict": verdict,
-        "numbers": {"parts": parts, "findings": findings} | dict(claim.numbers),
-        "designs": sorted({name for f in claim.findings for name in f.designs}),
-        "uncertainty": describe_uncertainty(claim),
-        "notes": list(claim.notes),
-    }
+    findings = tuple(finding for part in claim.parts.values() for finding in part)
+    parts = tuple(
+        PartRecord(
+            part=part,
+            verdict=verdicts[part],
+            asserted=part not in claim.open,
+            **count_verdicts(found),
+        )
+        for part, found in claim.parts.items()
+    )
+    return ClaimRecord(
+        id=claim.key,
+        claim=STATEMENTS[claim.key],
+        verdict=verdict,
+        numbers=replace(claim.numbers, parts=parts, findings=findings),
+        designs=tuple(sorted({name for f in claim.findings for name in f.designs})),
+        uncertainty=describe_uncertainty(claim),
+        notes=tuple(claim.notes),
+    )
 
 
-def describe_uncertainty(claim: Claim) -> dict[str, Any]:
+def describe_uncertainty(claim: Claim) -> Uncertainty:
     """Return the largest relative uncertainty of each quantity, and what it is made of."""
     largest: dict[str, float] = {}
     for finding in claim.findings:
@@ -95,7 +99,7 @@ def describe_uncertainty(claim: Claim) -> dict[str, Any]:
             largest[finding.quantity] = max(largest.get(finding.quantity, 0.0), relative)
     volumes = VOLUMES if any(name.startswith("volume") for name in largest) else ""
     method = claim.method or (METHOD + volumes if largest else EXACT)
-    return {"largest_relative": largest, "method": method}
+    return Uncertainty(largest_relative=largest, method=method)
 
 
 METHOD = "mesh error and cross-check difference of both numbers, root of the sum of squares"

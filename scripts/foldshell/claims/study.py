@@ -1,7 +1,7 @@
 """All claims of a study, with how far each depends on settings, as plain data."""
 
 from collections.abc import Mapping, Sequence
-from typing import Any
+from dataclasses import fields, replace
 
 from foldshell.claims import kinematics as folding
 from foldshell.claims import limits, structure
@@ -15,36 +15,20 @@ from foldshell.claims.sensitive import (
 )
 from foldshell.claims.statement import Claim, describe_claim
 from foldshell.claims.words import format_value, make_table
-
-SPREAD_KEYS = (
-    "state",
-    "iterations",
-    "volume",
-    "volume_per_area",
-    "displacement",
-    "displacement_edge",
-    "displacement_inner",
-    "utilization_mean",
-    "utilization_variation",
-    "utilization_panel_mean_max",
-    "utilization_max",
-    "buckling_factor",
-    "above_one",
-    "above_one_at_free_edge",
-    "panels_at_bound",
-)
-"""Measures in the table of all runs; lengths in m, volume in m3."""
+from foldshell.records.claims import ClaimRecord, Dependence
+from foldshell.records.kinematics import KinematicsRecord
+from foldshell.records.measures import FlatEqualRecord, Measures, SensitivityRow
 
 
 def judge_study(
     design_results: Sequence[DesignResult],
     equal: Sequence[DesignResult],
     folds: Sequence[DesignResult],
-    kinematics: Mapping[str, Any],
-    flats: Mapping[str, Mapping[str, Any]],
+    kinematics: KinematicsRecord,
+    flats: Mapping[str, FlatEqualRecord],
     variants: Mapping[str, Sequence[DesignResult]],
     comparer: Comparer,
-) -> list[dict[str, Any]]:
+) -> list[ClaimRecord]:
     """Return the entries of claims.json: C1 to C14, then what the paper left open.
 
     Parameters
@@ -75,19 +59,19 @@ def judge_study(
     return [*described, describe_planarity(design_results)]
 
 
-def _describe(claim: Claim, design_results, equal, variants, comparer: Comparer) -> dict[str, Any]:
+def _describe(claim: Claim, design_results, equal, variants, comparer: Comparer) -> ClaimRecord:
     entry = describe_claim(claim)
     runs = judge_variants(claim.key, variants, comparer)
     level = judge_equal_thickness(claim.key, equal, comparer)
     words = describe_dependence(claim, runs, level, variants)
     if claim.key in SENSITIVE:
-        words += _describe_states([one for one in design_results if one.name in entry["designs"]])
-    return entry | {"sensitivity": {"words": words, "runs": runs, "equal_thickness": level}}
+        words += _describe_states([one for one in design_results if one.name in entry.designs])
+    return replace(entry, sensitivity=Dependence(words=words, runs=runs, equal_thickness=level))
 
 
 def _describe_states(design_results: Sequence[DesignResult]) -> str:
     """Say how many designs hang on the least thickness alone, and which did not settle."""
-    names = {state: [o.name for o in design_results if o.values["state"] == state]
+    names = {state: [o.name for o in design_results if o.values.state == state]
              for state in ("at_minimum_thickness", "not_converged", "unstable")}  # fmt: skip
     thin = len(names["at_minimum_thickness"])
     words = (
@@ -107,20 +91,21 @@ def choose_geometries(design_results: Sequence[DesignResult]) -> list[DesignResu
     names = ("pattern", "surface", "span_m", "height_m", "zigzag", "strip", "fold_mode")
     found: dict[tuple, DesignResult] = {}
     for design_result in design_results:
-        found.setdefault(tuple(design_result.row[name] for name in names), design_result)
+        found.setdefault(tuple(getattr(design_result.row, name) for name in names), design_result)
     return list(found.values())
 
 
-def list_runs(variants: Mapping[str, Sequence[DesignResult]]) -> list[dict[str, Any]]:
-    """Return a row a run with other settings: design, variant, measures, volume over base."""
-    base = {one.name: one.values["volume"] for one in variants.get("base", ())}
+def list_runs(variants: Mapping[str, Sequence[DesignResult]]) -> list[SensitivityRow]:
+    """Return one row per run with other settings: design, variant, measures, volume over base."""
+    base = {one.name: one.values.volume for one in variants.get("base", ())}
+    shared = {field.name for field in fields(SensitivityRow)} & {f.name for f in fields(Measures)}
     return [
-        {
-            "design": one.name,
-            "variant": variant,
-            "volume_over_base": one.values["volume"] / base[one.name] if one.name in base else None,
-            **{key: one.values[key] for key in SPREAD_KEYS},
-        }
+        SensitivityRow(
+            design=one.name,
+            variant=variant,
+            volume_over_base=one.values.volume / base[one.name] if one.name in base else None,
+            **{name: getattr(one.values, name) for name in shared},
+        )
         for variant, design_results in variants.items()
         for one in design_results
     ]
@@ -135,14 +120,14 @@ def write_spread(
 
     It says for how many designs the run in memory ends where the loop in files did.
     """
-    final = {one.name: one.values["volume"] for one in design_results}
+    final = {one.name: one.values.volume for one in design_results}
     base = variants.get("base", ())
-    same = sum(one.values["volume"] == final.get(one.name) for one in base)
+    same = sum(one.values.volume == final.get(one.name) for one in base)
     volume = {name: {one.name: one for one in members} for name, members in variants.items()}
     rows = []
     for one in base:
         cells = [volume[name].get(one.name) for name in variants]
-        shown = [f"{format_value(c.values['volume'])} {MARKS[c.values['state']]}" if c else "-"
+        shown = [f"{format_value(c.values.volume)} {MARKS[c.values.state]}" if c else "-"
                  for c in cells]  # fmt: skip
         rows.append([one.name, *shown])
     meaning = "".join(f"- `{name}`: {words[name]}\n" for name in variants)

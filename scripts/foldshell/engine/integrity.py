@@ -10,11 +10,11 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from foldshell.engine.workbook_state import judge_workbook
-from foldshell.files.edits import WORKBOOK
 from foldshell.files.errors import InputError
 from foldshell.files.job_record import FOLDER, FileState, JobRecord, read_record
 from foldshell.files.manifest import NAME, Manifest, read_manifest
 from foldshell.files.whole import hash_file
+from foldshell.records.edits import WORKBOOK
 
 KINDS = ("missing", "damaged", "edited by hand", "made by another version", "left over")
 

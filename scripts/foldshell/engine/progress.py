@@ -1,51 +1,52 @@
-"""How far a study is: one line per iteration, a table of its designs, what is left."""
+"""How far a study is: a line an iteration, a table of its designs, an estimate of what is left."""
 
 import statistics
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
-from foldshell.files.whole import SECONDS, read_json
-from foldshell.results.history import find_least_factor
+from foldshell.files.errors import InputError
+from foldshell.files.whole import SECONDS
+from foldshell.records.analysis import AnalysisRecord, read_analysis
+from foldshell.records.files import TimeRecord, read_record
 
 USUAL_ITERATIONS = 15
 """Iterations a design is taken to need until one of the study is done."""
 
 _NUMBERS = (
     ("volume", "volume_m3", "{:.2f} m3"),
-    ("utilization", "utilization_panel_mean_max", "{:.3f}"),
+    ("largest panel mean of utilization", "utilization_panel_mean_max", "{:.3f}"),
     ("displacement", "displacement_vertical_max_m", "{:.4f} m"),
 )
 
 
 @dataclass(frozen=True)
 class DesignProgress:
-    """Iterations done of a design, the last report (None before the first), seconds of all, and
+    """Iterations done of a design, the last analysis (None before the first), seconds of all, and
     the bytes of its mesh (None before it is made), to which the time of an analysis is about
     proportional."""
 
     design: str
     iterations: int
-    last: Mapping[str, Any] | None
+    last: AnalysisRecord | None
     seconds: float
     size: int | None = None
 
     @property
     def done(self) -> bool:
         """True once a verdict has ended the loop."""
-        return self.last is not None and self.last["verdict"] != "continue"
+        return self.last is not None and not self.last.goes_on
 
 
-def describe_iteration(design: str, report: Mapping[str, Any]) -> str:
+def describe_iteration(design: str, analysis: AnalysisRecord) -> str:
     """Return one line: iteration, volume, utilization, displacement, factor, verdict, reason."""
-    words = [f"{design} iteration {report['iteration']:02d}:"]
+    words = [f"{design} iteration {analysis.iteration:02d}:"]
     for label, key, form in _NUMBERS:
-        value = report.get(key)
+        value = getattr(analysis, key)
         words.append(f"{label} {'-' if value is None else form.format(value)},")
-    factor = find_least_factor(report)
+    factor = analysis.least_factor
     words.append(f"buckling factor {'-' if factor is None else f'{factor:.2f}'},")
-    words.append(f"{report['verdict']}: {report['reason']}")
+    words.append(f"{analysis.verdict}: {analysis.reason}")
     return " ".join(words)
 
 
@@ -58,21 +59,20 @@ def _read_design(folder: Path, name: str) -> DesignProgress:
     last, number, seconds = None, 0, 0.0
     mesh = folder / "shell/mesh.npz"
     size = mesh.stat().st_size if mesh.exists() else None
-    while last is None or last["verdict"] == "continue":
+    while last is None or last.goes_on:
         try:
-            report = read_json(folder / f"sizing/{number:02d}/analysis.json")
-            seconds += _read_seconds(folder / f"sizing/{number:02d}" / SECONDS)
-            last = {"iteration": number, "reason": "", **report, "verdict": report["verdict"]}
-        except (OSError, ValueError, KeyError, TypeError):
+            last = read_analysis(folder / f"sizing/{number:02d}/analysis.json")
+        except InputError:
             break
+        seconds += _read_seconds(folder / f"sizing/{number:02d}" / SECONDS)
         number += 1
     return DesignProgress(name, number, last, seconds, size)
 
 
 def _read_seconds(path: Path) -> float:
     try:
-        return float(read_json(path)["seconds"])
-    except (OSError, ValueError, KeyError, TypeError):
+        return read_record(path, TimeRecord).elapsed
+    except InputError:
         return 0.0
 
 
@@ -102,7 +102,7 @@ def estimate_left(progress: Iterable[DesignProgress], cores: int) -> float | Non
 
 
 def show_progress(progress: Iterable[DesignProgress], cores: int) -> str:
-    """Return the text that a person looks at: one line per design, then totals."""
+    """Return the text that a person looks at: a line a design, then totals."""
     progress = list(progress)
     lines = [
         describe_iteration(item.design, item.last) if item.last else f"{item.design}: not begun"

@@ -5,10 +5,10 @@ from collections.abc import Iterable
 from pathlib import Path
 
 from foldshell.engine.integrity import Fault, Home, find_dependents, find_homes, read_home
-from foldshell.files.edits import keep_edited
 from foldshell.files.job_record import FOLDER
 from foldshell.files.manifest import NAME
 from foldshell.files.whole import hash_file
+from foldshell.records.edits import keep_edited
 
 KEPT = "replaced"
 """In the folder of a design or study: copies of files that a repair took away."""

@@ -40,16 +40,16 @@ def cell_fields(state: DesignState) -> dict[str, np.ndarray]:
         "panel": state.cell_panel.astype(np.int32),
         "thickness": cell_thickness(state),
     }
-    if state.classes:
+    if state.classes is not None:
         edge_beam = state.edge_beam_thickness
-        number = np.append(state.classes["panel_class"], np.zeros(len(edge_beam), dtype=int))
-        thickness = np.append(state.classes["thickness"], edge_beam)
+        number = np.append(state.classes.panel_class, np.zeros(len(edge_beam), dtype=int))
+        thickness = np.append(state.classes.thickness, edge_beam)
         fields["thickness_class"] = number[state.cell_panel].astype(np.int32)
         fields["class_thickness"] = thickness[state.cell_panel]
     if state.utilization is not None:
         fields["utilization"] = state.utilization
         fields["utilization_panel_mean"] = state.panel_utilization[state.cell_panel]
-        governing = state.final["governing_combination"].ravel() + 1
+        governing = state.final.governing_combination.ravel() + 1
         fields["governing_combination"] = governing.astype(np.int32)
     return fields
 

@@ -56,10 +56,10 @@ def describe_fields(
     """
     report, factors = state.report, known_factors(state)
     found = {name: _describe(name, state) for name in names}
-    verdict = [str(report[key]) for key in ("verdict", "reason") if report.get(key)]
+    verdict = list(filter(None, (report.verdict, report.reason)))
     data: dict[str, np.ndarray | list[str]] = {
         "title": [f"foldshell: final state of {state.name}"],
-        "verdict": verdict or ["not judged"],
+        "verdict": verdict,
         "length_unit": ["m"],
         "combinations": [
             f"{number}: {name}" + _factors(combinations.get(name, {}))
@@ -76,9 +76,9 @@ def describe_fields(
 
 def known_factors(state: DesignState) -> dict[str, float]:
     """Return the buckling factors of the combinations whose modes are at hand."""
-    if "buckling_modes" not in state.final:
+    if state.final.buckling_modes is None:
         return {}
-    factors = state.report.get("buckling_factor") or {}
+    factors = state.report.buckling_factor
     return {name: factors[name] for name in state.combinations if factors.get(name) is not None}
 
 

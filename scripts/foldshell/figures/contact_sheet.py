@@ -46,7 +46,7 @@ def make_tile(view: DesignView) -> Tile:
     blank = np.tile(np.array(MISSING, dtype=np.uint8), (len(state.triangles), 1))
     scene = Scene(state.cells.nodes, state.triangles, blank, lines, *support_marks(view))
     thickness = 1e3 * state.panel_thickness[state.cell_panel]
-    verdict = str(state.report.get("verdict")).replace("_", " ")
+    verdict = state.report.verdict.replace("_", " ")
     return Tile(state.name, verdict, scene, thickness, state.utilization)
 
 

@@ -1,14 +1,13 @@
 """What every picture of a design is made of: surface, creases, supports, words."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
 from foldshell.figures.camera import STANDARD_DIRECTION
 from foldshell.figures.layout import INK, SOFT, Caption, Key
 from foldshell.figures.scene import LIFT, Lines, Scene
+from foldshell.records.analysis import AnalysisRecord
 from foldshell.results.colour_scales import MISSING, ColourScale, round_step
 from foldshell.results.creases import cut_dashes
 from foldshell.results.design_view import DesignView, count_analyses
@@ -75,10 +74,10 @@ def specify_nothing(view: DesignView, title: str, words: str) -> FigureSpec:
     return FigureSpec(scene, Caption(title, (words, verdict), keys=keys, name=state.name))
 
 
-def describe_verdict(report: Mapping[str, Any]) -> str:
+def describe_verdict(report: AnalysisRecord) -> str:
     """Return verdict, count of analyses and reason as one line."""
-    words = f"{str(report.get('verdict')).replace('_', ' ')} after {count_analyses(report)}"
-    return f"{words}: {report['reason']}" if report.get("reason") else words
+    words = f"{report.verdict.replace('_', ' ')} after {count_analyses(report)}"
+    return f"{words}: {report.reason}" if report.reason else words
 
 
 def crease_lines(view: DesignView, points: np.ndarray) -> tuple[tuple[Lines, ...], tuple[Key, ...]]:
@@ -88,7 +87,7 @@ def crease_lines(view: DesignView, points: np.ndarray) -> tuple[tuple[Lines, ...
     """
     creases = view.creases
     dashes = cut_dashes(points[creases.valley], view.size / 90)
-    width = 2.5 * min(1.0, (DENSE / len(view.state.final["thickness"])) ** 0.5)
+    width = 2.5 * min(1.0, (DENSE / len(view.state.final.thickness)) ** 0.5)
     lines = (
         Lines(points[creases.border], INK, 0.8 * width),
         Lines(points[creases.flat], SOFT, 0.4 * width),
@@ -112,7 +111,7 @@ def lines_before(view: DesignView) -> Lines:
     """Return the undisplaced creases, of a dense sheet the border alone."""
     creases = view.creases
     kinds = [creases.border]
-    if len(view.state.final["thickness"]) <= DENSE:
+    if len(view.state.final.thickness) <= DENSE:
         kinds += [creases.mountain, creases.valley, creases.flat]
     return Lines(view.state.cells.nodes[np.concatenate(kinds)], (150, 150, 150), 1.5, 0.0)
 

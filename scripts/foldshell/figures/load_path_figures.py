@@ -57,7 +57,7 @@ def specify_principal_stress_lines(view: DesignView) -> FigureSpec:
         words = f"no membrane forces under {name}: it carries by bending alone"
         return specify_nothing(view, "Principal stress lines", words)
     keys = [Key("solid", "tension", TENSION), Key("solid", "compression", COMPRESSION)]
-    order = "" if state.report.get("state") in ("ok", None) else "first-order "
+    order = "" if state.report.state == "ok" else "first-order "
     facts = f"trajectories of the principal {order}membrane forces of {name}, across the folds"
     least, most = (format_force(share * large) for share in (FORCE_STEPS[0], FORCE_STEPS[-1]))
     classes = f"Width by force: from {least} kN/m to {most} kN/m and more. Weaker is left out."

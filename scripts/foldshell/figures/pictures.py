@@ -107,9 +107,9 @@ def _aim(spec: FigureSpec, frame: tuple[int, int]) -> Camera:
 def specify_thickness(view: DesignView) -> FigureSpec:
     """Panels coloured by thickness."""
     state = view.state
-    values, panels = 1e3 * state.panel_thickness, 1e3 * state.final["thickness"]
+    values, panels = 1e3 * state.panel_thickness, 1e3 * state.final.thickness
     scale = make_scale(values, "YlGnBu")
-    volume, area = state.report["volume_m3"], state.report["area_m2"]
+    volume, area = state.report.volume_m3, state.report.area_m2
     least, most = (f"{value:.0f}" for value in (panels.min(), panels.max()))
     facts = (
         f"{least if least == most else f'{least} to {most}'} mm{_describe_edge_beam(state)}; "
@@ -134,9 +134,9 @@ def _describe_edge_beam(state: DesignState) -> str:
 def specify_classes(view: DesignView) -> FigureSpec:
     """Panels by the class of their thickness, each class in one colour."""
     state, title = view.state, "Thickness classes"
-    if not state.classes:
+    if state.classes is None:
         return specify_nothing(view, title, "no thickness classes")
-    number, thickness = state.classes["panel_class"], 1e3 * state.classes["thickness"]
+    number, thickness = state.classes.panel_class, 1e3 * state.classes.thickness
     found = np.unique(number)
     rank = np.searchsorted(found, number).astype(float)
     scale = ColourScale(-0.5, len(found) - 0.5, "YlGnBu")
@@ -163,16 +163,16 @@ def specify_utilization(view: DesignView) -> FigureSpec:
     scale = make_limit_scale(values, limit)
     report = state.report
     facts = (
-        f"panel mean at most {report['utilization_panel_mean_max']:.2f}; pointwise 99 % of the "
-        f"area at most {report['utilization_p99']:.2f}, mean {report['utilization_mean']:.2f}"
+        f"panel mean at most {report.utilization_panel_mean_max:.2f}; pointwise 99 % of the "
+        f"area at most {report.utilization_p99:.2f}, mean {report.utilization_mean:.2f}"
     )
     if len(state.edge_beam_thickness):
-        facts += f"; edge beam at most {report['edge_beam_utilization_max']:.2f}"
+        facts += f"; edge beam at most {report.edge_beam_utilization_max:.2f}"
     words = f"utilization [-], largest of {state.strength[0]} to {state.strength[-1]}"
     if scale.limit is None:
         words += f" ({limit:g} is not reached)"
     above = f"to {values.max():.2f}" if values.max() > limit else "none"
-    width = LIMIT_WIDTH * min(1.0, DENSE / len(state.final["thickness"]))
+    width = LIMIT_WIDTH * min(1.0, DENSE / len(state.final.thickness))
     border = state.cells.nodes[find_region_border(state.triangles, values > limit)]
     return specify_field(
         view, "Utilization", facts, words, values, scale, above,
@@ -191,7 +191,7 @@ def specify_displacement(view: DesignView) -> FigureSpec:
     factor = exaggeration(moved, view.span)
     down = -1e3 * moved[:, 2]
     limit = 1e3 * view.span / view.sizing.displacement_limit_span_over
-    order = "" if state.report.get("state") in ("ok", None) else "first order, "
+    order = "" if state.report.state == "ok" else "first order, "
     facts = (
         f"{name}: {order}at most {down.max():.1f} mm down (limit {limit:.1f} mm); "
         f"drawn {factor:g} times as large"

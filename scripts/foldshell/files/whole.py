@@ -18,6 +18,9 @@ from foldshell.files.errors import InputError
 
 FAULT_POINT = os.environ.get("FOLDSHELL_FAULT_POINT", "")
 """For tests: the process group is killed once a file whose path ends so has been written."""
+DIGITS = 12
+"""Hexadecimal digits of the hash of all that decides a design, as tables and workbooks show it."""
+
 SECONDS = "seconds.json"
 """Beside a result: how long it took. No part of the results, and in no manifest."""
 TEMPORARY_PREFIX = ".writing-"
@@ -112,16 +115,6 @@ def write_json(path: str | Path, data: Any) -> None:
     text = json.dumps(data, indent=1, allow_nan=False, default=_plain, ensure_ascii=False)
     with atomic_path(path) as temporary:
         temporary.write_text(text + "\n", encoding="utf-8")
-
-
-def write_timed_json(path: str | Path, data: Mapping[str, Any]) -> None:
-    """Write `data` as JSON, but its `seconds` into seconds.json beside it: results are equal
-    whenever they were computed, times are not. The results come last, since jobs wait for them.
-    """
-    path = Path(path)
-    if "seconds" in data:
-        write_json(path.with_name(SECONDS), {"seconds": data["seconds"]})
-    write_json(path, {key: value for key, value in data.items() if key != "seconds"})
 
 
 def _plain(value: Any) -> Any:

@@ -1,30 +1,33 @@
 """Files of a folded sheet: folded.npz, folded.vtu, quality.json."""
 
+from dataclasses import asdict
 from pathlib import Path
 
 import numpy as np
 
-from foldshell.files.whole import atomic_path, write_arrays, write_timed_json
+from foldshell.files.whole import atomic_path, write_arrays
 from foldshell.folding.fold import FoldResult
 from foldshell.folding.quality import measure_planarity, measure_strain
 from foldshell.pattern.sheet import Sheet
+from foldshell.records.files import write_record
+from foldshell.records.quality import QualityRecord
 
 
-def describe_quality(result: FoldResult) -> dict[str, float | int | str]:
-    """Build the contents of quality.json: state, measures, effort, residuals of the mode."""
-    return {
-        "state": result.state,
-        "reason": result.reason,
-        **result.quality.as_dict(),
+def describe_quality(result: FoldResult) -> QualityRecord:
+    """Build the record of quality.json: state, measures, effort, residuals of the mode."""
+    return QualityRecord(
+        state=result.state,
+        reason=result.reason,
+        **asdict(result.quality),
         **result.shape.residuals,
-        "iterations": result.shape.iterations,
-        "seconds": round(result.seconds, 4),
-    }
+        iterations=result.shape.iterations,
+        seconds=round(result.seconds, 4),
+    )
 
 
 def write_quality(path: str | Path, result: FoldResult) -> None:
     """Write quality.json."""
-    write_timed_json(path, describe_quality(result))
+    write_record(path, describe_quality(result))
 
 
 def folded_arrays(sheet: Sheet, result: FoldResult) -> dict[str, np.ndarray]:

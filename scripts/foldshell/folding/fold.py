@@ -10,11 +10,12 @@ from foldshell.folding.developable_pattern import fold_exactly, fold_rigidly
 from foldshell.folding.isometric import fold_isometrically
 from foldshell.folding.placement import place_vertices, round_as_written
 from foldshell.folding.problem import attracted_vertices
-from foldshell.folding.quality import Quality, measure_quality, measure_start_coverage
+from foldshell.folding.quality import measure_quality, measure_start_coverage
 from foldshell.folding.shape import Shape
 from foldshell.folding.soft import fold_softly
 from foldshell.folding.terms import Target, measure_distances
 from foldshell.pattern.sheet import Sheet
+from foldshell.records.quality import QualityMeasures
 from foldshell.settings.fold import Fold, FoldLimits
 
 # 2e-3 is what rigid domes are to reach; isometric saddles come nearer, or something went wrong.
@@ -35,7 +36,7 @@ class FoldResult:
     shape: Shape
     attracted: np.ndarray
     distances: np.ndarray
-    quality: Quality
+    quality: QualityMeasures
     state: str
     reason: str
     seconds: float
@@ -79,7 +80,7 @@ def allowed_rms(limits: FoldLimits, mode: str) -> float:
 
 
 def judge_shape(
-    shape: Shape, quality: Quality, rms_limit: float, coverage_limit: float, mode: str
+    shape: Shape, quality: QualityMeasures, rms_limit: float, coverage_limit: float, mode: str
 ) -> tuple[str, str]:
     """Name the state of a folded sheet and the reason for it.
 

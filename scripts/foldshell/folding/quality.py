@@ -1,7 +1,5 @@
 """Quality of a folded sheet: what was distorted, what crumpled, what the target misses."""
 
-from dataclasses import asdict, dataclass
-
 import numpy as np
 
 from foldshell.folding.intersections import find_intersections
@@ -10,33 +8,7 @@ from foldshell.folding.terms import Target
 from foldshell.pattern.angles import developability_residual, measure_folds
 from foldshell.pattern.grid import Grid
 from foldshell.pattern.sheet import Sheet
-
-
-@dataclass(frozen=True)
-class Quality:
-    """Measures of one folded sheet; ratios are non-dimensional.
-
-    Planarity is the distance between a panel's diagonals over their mean length.
-    """
-
-    rms_over_span: float
-    max_over_span: float
-    edge_strain_max: float
-    edge_strain_rms: float
-    angle_defect_max_rad: float
-    planarity_max: float
-    planarity_mean: float
-    neutral_fold_mean_deg: float
-    neutral_fold_max_deg: float
-    flipped_folds: int
-    self_intersections: int
-    plan_coverage: float
-    panels_not_convex: int
-    edge_ratio_max: float
-
-    def as_dict(self) -> dict[str, float | int]:
-        """Plain data."""
-        return asdict(self)
+from foldshell.records.quality import QualityMeasures
 
 
 def measure_quality(
@@ -46,7 +18,7 @@ def measure_quality(
     distances: np.ndarray,
     span: float,
     folded: bool = True,
-) -> Quality:
+) -> QualityMeasures:
     """Measure a folded sheet: vertices and flat state (V, 3) [m], signed distances (N,) [m].
 
     `folded` False leaves out the fold directions, for sheets without folds.
@@ -55,7 +27,7 @@ def measure_quality(
     planarity = measure_planarity(vertices, grid.quads)
     folds = measure_folds(vertices, grid)
     neutral = np.degrees(np.abs(folds[grid.neutral]))
-    return Quality(
+    return QualityMeasures(
         rms_over_span=root_mean_square(distances) / span,
         max_over_span=float(np.abs(distances).max(initial=0.0)) / span,
         edge_strain_max=float(np.abs(strain).max()),

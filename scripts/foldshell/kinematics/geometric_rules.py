@@ -6,7 +6,6 @@ Tsiamis, Oliva and Calvano, Nexus Netw. J. 20 (2018) 59, Fig. 1, against Schenk 
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
 
 import numpy as np
 
@@ -15,31 +14,10 @@ from foldshell.folding.quality import measure_planarity
 from foldshell.kinematics.reverse_fold import fold_by_rules, fold_unit, largest_travel, travel_at
 from foldshell.pattern.angles import developability_residual, flat_foldability_residual
 from foldshell.pattern.miura import Miura, flat_vertices, folded_vertices, rest_fold_angle
+from foldshell.records.kinematics import RuleDifference
 
 PANELS = {"S1": "EFlp", "S2": "HGnq", "S3": "EFLI", "S4": "ILGH", "S5": "EIvu", "S6": "IHwv"}
 """Panels of Fig. 1 by their corners, one letter each; lower case as in `place_module`."""
-
-
-@dataclass(frozen=True)
-class Difference:
-    """A folded state by the rules: what it differs by from the closed form, what it keeps.
-
-    Lengths are in m for the stated sides; `vertices_max_m` is the largest distance of a vertex
-    between rules and closed form, `edge_strain_max` the largest change of an edge, diagonals too,
-    against the flat sheet, `planarity_max` the distance of a panel's diagonals over their length.
-    """
-
-    side_a_m: float
-    side_b_m: float
-    sector_angle_deg: float
-    fold_angle_deg: float
-    travel_m: float
-    travel_over_largest: float
-    vertices_max_m: float
-    edge_strain_max: float
-    planarity_max: float
-    angle_defect_max_rad: float
-    kawasaki_max_rad: float
 
 
 def list_patterns(sector_angle: float) -> list[Miura]:
@@ -57,7 +35,7 @@ def list_angles(sector_angle: float, count: int = 19) -> list[float]:
     return sorted({*np.linspace(0.0, math.pi / 2, count).tolist(), rest_fold_angle(sector_angle)})
 
 
-def tabulate_differences(sector_angle: float) -> list[Difference]:
+def tabulate_differences(sector_angle: float) -> list[RuleDifference]:
     """Compare rules and closed form for every sheet of the table, from flat to folded flat."""
     return [
         compare_with_closed_form(pattern, angle)
@@ -66,13 +44,13 @@ def tabulate_differences(sector_angle: float) -> list[Difference]:
     ]
 
 
-def compare_with_closed_form(pattern: Miura, fold_angle: float) -> Difference:
+def compare_with_closed_form(pattern: Miura, fold_angle: float) -> RuleDifference:
     """Fold the sheet by the rules to `fold_angle` [rad] and measure it against the closed form."""
     travel, grid = travel_at(pattern, fold_angle), pattern.grid
     vertices = fold_by_rules(pattern, travel)
     distance = np.linalg.norm(vertices - folded_vertices(pattern, fold_angle), axis=1)
     strain = edge_lengths(vertices, grid.edges) / edge_lengths(flat_vertices(pattern), grid.edges)
-    return Difference(
+    return RuleDifference(
         side_a_m=pattern.side_a,
         side_b_m=pattern.side_b,
         sector_angle_deg=math.degrees(pattern.sector_angle),

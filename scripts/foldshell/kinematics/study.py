@@ -3,7 +3,6 @@
 import math
 from collections.abc import Sequence
 from dataclasses import asdict, dataclass
-from typing import Any
 
 from foldshell.folding.targets import make_target
 from foldshell.kinematics.force_ratios import sweep_force_ratios
@@ -15,6 +14,13 @@ from foldshell.kinematics.mechanism import (
 )
 from foldshell.pattern.design import design_sheet
 from foldshell.pattern.miura import Miura, folded_vertices, rest_fold_angle
+from foldshell.records.kinematics import (
+    ForceRatioTrial,
+    MechanismCount,
+    RatioRow,
+    SheetRecord,
+    SoftMode,
+)
 from foldshell.settings.fold import Fold
 
 FOLD_ANGLES_DEG = (10.0, 20.0, 30.0, 40.0, 50.0, 60.0, 70.0)
@@ -22,35 +28,35 @@ PANEL_STIFFNESSES = (1.0, 10.0)  # over that of creases
 SURFACES = ("paraboloid", "hypar")
 
 
-def tabulate_ratios(sector_angle: float) -> list[dict[str, float]]:
+def tabulate_ratios(sector_angle: float) -> tuple[RatioRow, ...]:
     """Poisson's ratios on the folding path and at rest, beside the closed forms."""
     angles = [math.radians(a) for a in FOLD_ANGLES_DEG] + [rest_fold_angle(sector_angle)]
     pattern = Miura(1.0, 1.0, sector_angle, 7, 8)
-    return [
-        {"fold_angle_deg": math.degrees(angle), **asdict(measure_ratios(pattern, angle))}
+    return tuple(
+        RatioRow(fold_angle_deg=math.degrees(angle), **asdict(measure_ratios(pattern, angle)))
         for angle in angles
-    ]
+    )
 
 
-def study_sheet(sector_angle: float, zigzag_count: int, strip_count: int) -> dict[str, Any]:
+def study_sheet(sector_angle: float, zigzag_count: int, strip_count: int) -> SheetRecord:
     """Mechanisms, isometries and soft modes of one sheet in its rest state."""
     pattern, rest = (
         Miura(1.0, 1.0, sector_angle, zigzag_count, strip_count),
         rest_fold_angle(sector_angle),
     )
     vertices, grid = folded_vertices(pattern, rest), pattern.grid
-    return {
-        "zigzag": zigzag_count,
-        "strip": strip_count,
-        "rigid_panels": asdict(count_mechanisms(vertices, grid, True)),
-        "bending_panels": asdict(count_mechanisms(vertices, grid, False)),
-        "isometry_residual": measure_isometry(vertices, grid),
-        "modes": [
-            {"panel_over_crease": ratio, **asdict(mode)}
+    return SheetRecord(
+        zigzag=zigzag_count,
+        strip=strip_count,
+        rigid_panels=MechanismCount(**asdict(count_mechanisms(vertices, grid, True))),
+        bending_panels=MechanismCount(**asdict(count_mechanisms(vertices, grid, False))),
+        isometry_residual=measure_isometry(vertices, grid),
+        modes=tuple(
+            SoftMode(panel_over_crease=ratio, **asdict(mode))
             for ratio in PANEL_STIFFNESSES
             for mode in find_soft_modes(pattern, rest, ratio)
-        ],
-    }
+        ),
+    )
 
 
 @dataclass(frozen=True)
@@ -72,12 +78,14 @@ class Sweeps:
 SWEEPS = Sweeps()
 
 
-def study_sheets(sector_angle: float, densities: Sequence[tuple[int, int]]) -> list[dict[str, Any]]:
+def study_sheets(
+    sector_angle: float, densities: Sequence[tuple[int, int]]
+) -> tuple[SheetRecord, ...]:
     """Study one sheet for each pair of zig-zags and strips."""
-    return [study_sheet(sector_angle, *density) for density in densities]
+    return tuple(study_sheet(sector_angle, *density) for density in densities)
 
 
-def sweep_surfaces(sector_angle: float, sweeps: Sweeps) -> list[dict[str, Any]]:
+def sweep_surfaces(sector_angle: float, sweeps: Sweeps) -> tuple[ForceRatioTrial, ...]:
     """Fold quadrilaterals and triangles by every pair of strengths, by either engine in turn."""
     explicit = Fold(engine="averaged_projections", max_iterations=10)
     engines = [
@@ -91,5 +99,5 @@ def sweep_surfaces(sector_angle: float, sweeps: Sweeps) -> list[dict[str, Any]]:
             angle = math.degrees(sector_angle)
             sheet = design_sheet("miura", target.section_lengths(), 15, 16, angle, 0)
             trials = sweep_force_ratios(sheet, target, settings, attractions, panels)
-            rows += [{"surface": surface, **asdict(trial)} for trial in trials]
-    return rows
+            rows += [ForceRatioTrial(surface=surface, **asdict(trial)) for trial in trials]
+    return tuple(rows)

@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 
 from foldshell.files.whole import atomic_path
-from foldshell.kinematics.geometric_rules import PANELS, Difference, place_module, trace_points
+from foldshell.kinematics.geometric_rules import PANELS, place_module, trace_points
 from foldshell.pattern.miura import Miura
+from foldshell.records.kinematics import RuleDifference
 
 STAGES_DEG = (0.0, 30.0, 54.7, 80.0)
 HELD_DEG = 40.0  # the state with names and circles
@@ -27,7 +28,7 @@ REACH = 1e-12
 
 
 def draw_trajectories(
-    path: str | Path, sector_angle: float, differences: Sequence[Difference]
+    path: str | Path, sector_angle: float, differences: Sequence[RuleDifference]
 ) -> None:
     """Draw the module's trajectories, its stages and the table of differences as a PNG.
 
@@ -176,7 +177,7 @@ def _name_points(axis: Any, at: dict[str, np.ndarray]) -> None:
         axis.annotate(name, centre, ha="center", va="center", fontsize=11, zorder=72)
 
 
-def _draw_differences(axis: Any, differences: Sequence[Difference]) -> None:
+def _draw_differences(axis: Any, differences: Sequence[RuleDifference]) -> None:
     """Every measure of every sheet over the fold angle, as marks on a logarithmic axis."""
     angles = [row.fold_angle_deg for row in differences]
     for (key, words), mark in zip(MEASURES.items(), "os^Dv", strict=True):

@@ -1,10 +1,11 @@
 """analysis.json and final.json: one analysis of the sizing loop, and the verdict on it."""
 
+from collections.abc import Collection
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
+from typing import Literal, Self
 
-from foldshell.records.entry import COUNT, entry
+from foldshell.records.entry import COUNT, Entry, elapsed, entries, entry
 from foldshell.records.files import read_record, write_record
 
 Verdict = Literal["continue", "converged", "not_converged", "at_minimum_thickness", "unstable"]
@@ -18,6 +19,59 @@ class Criterion:
     value: float | None = entry("what was found; null before there is anything to compare")
     limit: float = entry("what it is held against")
     met: bool = entry("whether it holds")
+
+
+@dataclass(frozen=True, kw_only=True)
+class Criteria:
+    """The criteria of the stop rule; those that are not asked for are left out.
+
+    The upper limit of utilization is named after the measure that it holds for.
+    """
+
+    utilization_panel_mean: Criterion | None = entry(
+        "largest mean utilization of a panel, at most its limit", "-",
+        "utilization, largest panel mean", left_out=True,
+    )  # fmt: skip
+    utilization_element_max: Criterion | None = entry(
+        "largest utilization of a result cell, at most its limit", "-",
+        "utilization, largest of all points", left_out=True,
+    )  # fmt: skip
+    utilization_min: Criterion | None = entry(
+        "the same largest value, at least its lower limit: the shell is used", "-",
+        "the same, at least", left_out=True,
+    )  # fmt: skip
+    displacement_vertical_m: Criterion | None = entry(
+        "largest downward displacement, below its limit", "m",
+        "vertical displacement, down", left_out=True,
+    )  # fmt: skip
+    volume_change_m3: Criterion | None = entry(
+        "change of volume from the analysis before, below its limit", "m3", left_out=True
+    )
+    volume_change_relative: Criterion | None = entry(
+        "the same over the volume before, below its limit", "-", left_out=True
+    )
+    edge_beam_utilization: Criterion | None = entry(
+        "largest utilization of the edge beam by the same measure, at most its limit",
+        "-", left_out=True,
+    )  # fmt: skip
+
+    def items(self) -> list[tuple[Entry, Criterion]]:
+        """Return those that are asked for, each with what is said of it."""
+        pairs = [(about, getattr(self, about.attribute)) for about in entries(Criteria).values()]
+        return [(about, item) for about, item in pairs if item is not None]
+
+    def select(self, names: Collection[str]) -> Self:
+        """Return the named ones alone."""
+        return type(self)(**{about.key: item for about, item in self.items() if about.key in names})
+
+    @property
+    def open_names(self) -> list[str]:
+        """Names of those that are not met."""
+        return [about.key for about, item in self.items() if not item.met]
+
+
+DECIDES = {"panel_mean": "utilization_panel_mean_max", "element_max": "utilization_max"}
+"""What the loop holds against the limit of utilization, by its measure."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,6 +113,11 @@ class ShellState:
     utilization_panel_mean_max: float | None = entry(
         "largest mean utilization of a panel: what the paper's measure holds against its limit",
         "-", "utilization, largest panel mean", left_out=True,
+    )  # fmt: skip
+    governing_combination: str | None = entry(
+        "strength combination under which the most utilized panel, by the measure of the loop, is "
+        "used most",
+        words="governing combination", left_out=True,
     )  # fmt: skip
     displacement_vertical_max_m: float | None = entry(
         "largest downward displacement over the deflection combinations",
@@ -112,10 +171,16 @@ class AnalysisRecord(ShellState):
 
     verdict: Verdict = entry("continue, or how the loop ended")
     reason: str = entry("why, in words")
-    criteria: dict[str, Criterion] = entry("each criterion of the stop rule by its name")
+    criteria: Criteria = entry("each criterion of the stop rule; none where there are no numbers")
     stationary_iterations: int = entry("iterations in a row with a small change of volume", COUNT)
-    seconds: float | None = entry("wall time of the analysis", "s", left_out=True)
+    seconds: float | None = elapsed()
     edited: bool = entry("whether a person had changed the workbook that was read", default=False)
+    edited_panels: tuple[int, ...] | None = entry(
+        "panels whose thickness that person had changed", left_out=True
+    )
+    counted_from: int = entry(
+        "iteration from which iterations_max counts: 0, or that of the last edit", COUNT, default=0
+    )
     settings_hash: str | None = entry(
         "hash of all that decides the design up to here: settings, surface, edits", left_out=True
     )

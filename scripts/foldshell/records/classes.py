@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from foldshell.records.analysis import Criterion, ShellState
-from foldshell.records.entry import COUNT, entry
+from foldshell.records.analysis import Criteria, ShellState
+from foldshell.records.entry import COUNT, elapsed, entry
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -26,7 +26,7 @@ class ClassesRecord(ShellState):
         "whether the grouped design keeps the limits; else the state of its analysis"
     )
     reason: str = entry("why, in words")
-    criteria: dict[str, Criterion] = entry("the limits that the grouped design has to keep")
+    criteria: Criteria = entry("the limits that the grouped design has to keep")
     count: int = entry("classes allowed", COUNT)
     rounds: int = entry("how often panels above the limit were thickened and grouped anew", COUNT)
     classes: tuple[ThicknessClass, ...] = entry("the classes in rising order of thickness")
@@ -34,4 +34,4 @@ class ClassesRecord(ShellState):
     added_volume_relative: float = entry(
         "volume over that before grouping, less 1", "-", form="change"
     )
-    seconds: float | None = entry("wall time of the last analysis", "s", left_out=True)
+    seconds: float | None = elapsed()

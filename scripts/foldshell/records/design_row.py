@@ -15,14 +15,18 @@ class DesignRow:
     tags: str = entry("tags of the design, comma-separated")
     pattern: str = entry("crease pattern")
     surface: str = entry("target surface, or the mesh file that holds it")
-    span_m: float = entry("side of the square plan", "m")
-    height_m: float = entry("height of the surface", "m")
+    span_m: float = entry("side of the square plan", "m", form="general")
+    height_m: float = entry("height of the surface", "m", form="general")
     zigzag: int = entry("zig-zag polylines of the pattern", COUNT, "zig-zags")
     strip: int = entry("strip polylines of the pattern", COUNT, "strips")
     support: str = entry("edges that are supported", words="supported")
     fold_mode: str = entry("how the pattern is folded")
-    edge_beam_depth_m: float | None = entry("depth of the edge beam", "m", default=None)
-    edge_beam_thickness_m: float | None = entry("thickness of the edge beam", "m", default=None)
+    edge_beam_depth_m: float | None = entry(
+        "depth of the edge beam", "m", form="general", default=None
+    )
+    edge_beam_thickness_m: float | None = entry(
+        "thickness of the edge beam", "m", form="general", default=None
+    )
 
     @property
     def panels(self) -> int:

@@ -61,15 +61,23 @@ def entry(
     return dataclasses.field(default=default, metadata=about)
 
 
-def same(kind: type, name: str, left_out: bool | None = None, **changed: str) -> Any:
+def elapsed() -> Any:
+    """Return the field `seconds` of a record that is written into a file of its own, seconds.json:
+    results are equal whenever they were computed, times are not."""
+    return dataclasses.field(default=None, compare=False, metadata={"apart": True})
+
+
+def same(
+    kind: type, name: str, left_out: bool | None = None, empty: bool = False, **changed: str
+) -> Any:
     """Return a dataclass field that says the same as a field of another record but for `changed`.
 
-    `left_out` False keeps the column of a value that may be None.
+    `left_out` False keeps the column of a value that may be None; `empty` makes that the default.
     """
     field = kind.__dataclass_fields__[name]
     kept = field.metadata["left_out"] if left_out is None else left_out
     metadata = {**field.metadata, "left_out": kept, **changed}
-    default = None if kept else field.default
+    default = None if kept or empty else field.default
     return dataclasses.field(default=default, metadata=metadata)
 
 
@@ -80,7 +88,8 @@ def entries(kind: type) -> Mapping[str, Entry]:
     Raises `TypeError` for a field that was not made by `entry`: without a meaning there is none.
     """
     hints = get_type_hints(kind)
-    found = (_describe(field, hints[field.name]) for field in dataclasses.fields(kind))
+    kept = (field for field in dataclasses.fields(kind) if not field.metadata.get("apart"))
+    found = (_describe(field, hints[field.name]) for field in kept)
     return MappingProxyType({about.key: about for about in found})
 
 

@@ -1,14 +1,25 @@
 """Records in JSON files: read whole and checked, or one sentence that says what is wrong."""
 
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, TypeVar
 
 from foldshell.files.errors import InputError
-from foldshell.files.whole import read_json, write_json
+from foldshell.files.whole import SECONDS, read_json, write_json
+from foldshell.records.entry import entry
 from foldshell.records.plain import DamageError, from_plain, to_plain
 
 Record = TypeVar("Record")
+
+
+@dataclass(frozen=True, kw_only=True)
+class TimeRecord:
+    """The contents of seconds.json: how long the file beside it took to compute."""
+
+    elapsed: float = entry("wall time", "s", key="seconds")
+
+
 REMEDY = "delete this file and start again, it is computed anew"
 
 
@@ -41,7 +52,14 @@ def read_records(path: str | Path, kind: type[Record]) -> list[Record]:
 
 
 def write_record(path: str | Path, record: Any) -> None:
-    """Write a record as JSON, whole or not at all."""
+    """Write a record as JSON, whole or not at all.
+
+    Seconds of one that was computed now stand in seconds.json beside it. The record comes last,
+    since jobs wait for it.
+    """
+    if getattr(record, "seconds", None) is not None:
+        apart = TimeRecord(elapsed=record.seconds)
+        write_json(Path(path).with_name(SECONDS), to_plain(apart))
     write_json(path, to_plain(record))
 
 

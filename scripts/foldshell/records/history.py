@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from foldshell.records.analysis import AnalysisRecord, ShellState, Verdict
-from foldshell.records.entry import entry, same
+from foldshell.records.entry import COUNT, entry, same
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -14,6 +14,9 @@ class HistoryRow:
     verdict: Verdict = same(AnalysisRecord, "verdict")
     edited: str | None = entry(
         "`edited` where a person had changed the workbook that was read", default=None
+    )
+    edited_panels: int | None = entry(
+        "panels whose thickness that person had changed", COUNT, default=None
     )
     volume_m3: float = same(ShellState, "volume_m3")
     volume_change_m3: float | None = entry(

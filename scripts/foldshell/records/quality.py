@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from foldshell.records.entry import COUNT, entry
+from foldshell.records.entry import COUNT, elapsed, entry
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -87,4 +87,4 @@ class QualityRecord(QualityMeasures):
         "m", "reach beyond the surface's border", left_out=True,
     )  # fmt: skip
     iterations: int = entry("iterations of the solver", COUNT)
-    seconds: float | None = entry("wall time of the folding", "s", left_out=True)
+    seconds: float | None = elapsed()

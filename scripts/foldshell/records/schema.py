@@ -27,6 +27,10 @@ def make_schema(file: ResultFile) -> Schema:
     """Return the schema of a result file; of a table it is that of its rows with typed cells."""
     found: dict[str, Schema] = {}
     reference = _of_record(file.kind, found)
+    if file.path.endswith(".csv"):  # a column stands whether its cells are empty or not
+        columns = entries(file.kind).items()
+        due = [key for key, about in columns if not about.left_out]
+        found[file.kind.__name__]["required"] = due
     content = {"type": "array", "items": reference} if file.many else reference
     head = {"$schema": DIALECT, "title": file.path, "description": file.meaning}
     return {**head, **content, "$defs": found}

@@ -1,6 +1,5 @@
 """summary.csv: one row per design of a study."""
 
-import dataclasses
 from dataclasses import dataclass
 
 from foldshell.records.analysis import ShellState
@@ -15,13 +14,11 @@ def _design(name: str):
 
 
 def _state(name: str):
-    return same(ShellState, name, left_out=False)
+    return same(ShellState, name, left_out=False, empty=True)
 
 
 def _quality(name: str):
-    return dataclasses.field(
-        default=None, metadata=QualityMeasures.__dataclass_fields__[name].metadata
-    )
+    return same(QualityMeasures, name, empty=True)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -55,17 +52,27 @@ class SummaryRow:
     buckling_factor_min: float | None = entry(
         "least buckling factor of all combinations", "-", "buckling factor", default=None
     )
-    mesh_subdivisions: int | None = same(ShellState, "mesh_subdivisions")
-    mesh_error: float | None = same(MeshConvergenceRecord, "mesh_error")
+    mesh_subdivisions: int | None = _state("mesh_subdivisions")
+    mesh_error: float | None = same(MeshConvergenceRecord, "mesh_error", empty=True)
     crosscheck: str | None = entry(
         "pass, fail, or not possible for a mechanism", words="cross-check", default=None
     )
-    settings_hash: str | None = entry("hash of all that decides the final state of the design")
+    settings_hash: str | None = entry(
+        "hash of all that decides the final state of the design", default=None
+    )
     reason: str | None = entry("why the state is so", default=None)
-    buckling_mesh_error: float | None = same(MeshConvergenceRecord, "buckling_mesh_error")
+    buckling_mesh_error: float | None = same(
+        MeshConvergenceRecord, "buckling_mesh_error", empty=True
+    )
     edge_beam_depth_m: float | None = _design("edge_beam_depth_m")
     edge_beam_thickness_m: float | None = _design("edge_beam_thickness_m")
     edge_beam_volume_m3: float | None = _state("edge_beam_volume_m3")
     edge_beam_utilization_max: float | None = _state("edge_beam_utilization_max")
     edge_strain_max: float | None = _quality("edge_strain_max")
     planarity_max: float | None = _quality("planarity_max")
+    utilization_panel_mean_max: float | None = _state("utilization_panel_mean_max")
+    governing_combination: str | None = _state("governing_combination")
+    edited_panels: int | None = entry(
+        "panels whose thickness a person changed in some iteration; empty for none",
+        COUNT, "panels changed by a person", default=None,
+    )  # fmt: skip

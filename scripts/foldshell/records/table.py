@@ -13,6 +13,9 @@ from foldshell.records.plain import DamageError, from_plain
 
 Record = TypeVar("Record")
 ANSWERS = {"yes": True, "no": False}
+FORMULA_STARTS = ("=", "+", "@", "\t", "\r")
+"""A spreadsheet runs a text of a .csv file that begins so; an apostrophe before it says not to."""
+QUOTED = tuple(f"'{start}" for start in FORMULA_STARTS)
 
 
 def choose_columns(kind: type, rows: Sequence[Any]) -> list[Entry]:
@@ -75,6 +78,7 @@ def _parse(about: Entry, text: str) -> Any:
     """Return the value of a cell; a text that is no such value stays one and is refused later."""
     kind = _scalar(about.type)
     if kind is str:
+        text = text[1:] if text.startswith(QUOTED) else text
         return None if text == "" and not about.required else text
     if text == "":
         return None
@@ -97,4 +101,7 @@ def _show(value: Any) -> str:
         return ""
     if isinstance(value, bool):
         return "yes" if value else "no"
-    return repr(float(value)) if isinstance(value, float) else str(value)
+    if isinstance(value, float):
+        return repr(float(value))
+    text = str(value)
+    return f"'{text}" if isinstance(value, str) and text.startswith(FORMULA_STARTS) else text

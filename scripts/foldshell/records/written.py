@@ -10,3 +10,6 @@ class WrittenRecord:
     """The contents of written.json: a workbook that differs was changed by a person."""
 
     sha256: str = entry("SHA-256 of the bytes of thickness.xlsx as it was written")
+    thickness_m: tuple[float, ...] | None = entry(
+        "thickness of each panel as it was written", "m", left_out=True
+    )

@@ -7,15 +7,11 @@ from typing import Any
 
 from foldshell.files.whole import read_json
 from foldshell.records.analysis import AnalysisRecord, Criterion
+from foldshell.records.entry import Entry
 from foldshell.report.markup import format_number
 
-WORDS = {
-    "utilization_max": "utilization, largest panel mean [-]",
-    "utilization_panel_mean": "utilization, largest panel mean [-]",
-    "utilization_strip": "utilization of a strip of material [-]",
-    "displacement_vertical_m": "vertical displacement, down [mm]",
-    "edge_beam_utilization": "utilization of the edge beam [-]",
-}
+LIMITS = ("utilization_panel_mean", "utilization_element_max", "displacement_vertical_m",
+          "edge_beam_utilization")  # fmt: skip
 """Criteria of the sizing loop that are limits of a structure; the others stop the loop."""
 BUCKLING = "buckling factor, elastic, perfect shell [-]"
 
@@ -42,9 +38,9 @@ class Check:
 def list_checks(final: AnalysisRecord, engineering: Mapping[str, Any] | None = None) -> list[Check]:
     """Return the checks of a final state; those of checks/engineering.json follow, if given."""
     checks = [
-        _of_criterion(name, item, final)
-        for name, item in final.criteria.items()
-        if name in WORDS and item.value is not None
+        _of_criterion(about, item, final)
+        for about, item in final.criteria.items()
+        if about.key in LIMITS and item.value is not None
     ]
     factor = final.least_factor
     if factor is not None:
@@ -56,15 +52,15 @@ def list_checks(final: AnalysisRecord, engineering: Mapping[str, Any] | None = N
     return checks
 
 
-def _of_criterion(name: str, item: Criterion, final: AnalysisRecord) -> Check:
-    scale = 1e3 if name.endswith("_m") else 1.0
+def _of_criterion(about: Entry, item: Criterion, final: AnalysisRecord) -> Check:
+    scale, words = (1e3, f"{about.words} [mm]") if about.unit == "m" else (1.0, about.label())
     where = ""
-    if name == "displacement_vertical_m" and final.displacement_combination:
+    if about.key == "displacement_vertical_m" and final.displacement_combination:
         where = f"combination {final.displacement_combination}"
         if final.displacement_place_m:
             where += " at x {:.1f}, y {:.1f}, z {:.1f} m".format(*final.displacement_place_m)
     ratio = item.value / item.limit if item.limit else None
-    return Check(WORDS[name], scale * item.value, scale * item.limit, ratio, item.met, where)
+    return Check(words, scale * item.value, scale * item.limit, ratio, item.met, where)
 
 
 def _of_engineering(name: str, item: Mapping[str, Any]) -> Check:

@@ -1,48 +1,56 @@
 """The sections of a design's page: verdict, criteria, history, checks, mesh error, folding."""
 
-import csv
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from foldshell.files.whole import read_json
+from foldshell.records.analysis import AnalysisRecord, Criteria, read_analysis
+from foldshell.records.classes import ClassesRecord
+from foldshell.records.comparison import ComparisonRecord, read_comparison
+from foldshell.records.entry import SIGNS, entries, name_key
+from foldshell.records.files import read_record
+from foldshell.records.history import HistoryRow
+from foldshell.records.mesh_convergence import CombinationStudy, MeshConvergenceRecord
+from foldshell.records.quality import QualityRecord
+from foldshell.records.table import read_rows
 from foldshell.report.history_chart import Series, draw_history
 from foldshell.report.markup import Cell, Table, format_number, make_table
 from foldshell.results.design_view import count_analyses
 from foldshell.settings.design import Design
 from foldshell.workbook.styles import GOOD_VERDICTS
 
-FOLDING = {
-    "rms_over_span": "rms distance to the target / span [-]",
-    "max_over_span": "largest distance to the target / span [-]",
-    "edge_strain_max": "largest strain of an edge [-]",
-    "edge_strain_rms": "rms strain of the edges [-]",
-    "angle_defect_max_rad": "largest defect of a vertex's angle sum [rad]",
-    "planarity_max": "planarity, largest [-]",
-    "planarity_mean": "planarity, mean [-]",
-    "neutral_fold_mean_deg": "mean fold across panels [°]",
-    "flipped_folds": "flipped folds",
-    "self_intersections": "self-intersections",
-    "plan_coverage": "share of the plan that is covered [-]",
-    "unfold_closure_m": "closure when unfolded [m]",
-    "refold_closure_m": "closure when folded again [m]",
-}
-HEADLINES = {
-    "volume_m3": "volume [m³]",
-    "area_m2": "area of the sheet [m²]",
-    "utilization_panel_mean_max": "utilization, largest panel mean [-]",
-    "utilization_p99": "utilization, 99 % of the area [-]",
-    "utilization_max": "utilization, largest of all points [-]",
-    "utilization_mean": "utilization, mean [-]",
-    "displacement_vertical_max_m": "vertical displacement, down [m]",
-    "panels_above_one": "panels above 1",
-    "panels_at_bound": "panels at the least or largest thickness",
-    "reaction_imbalance": "reactions against loads [-]",
-    "mesh_subdivisions": "cells along a facet edge",
-    "dofs": "unknowns",
-}
-UNITS = {"m": "m", "m2": "m²", "m3": "m³", "knm": "kNm", "kn": "kN", "rad": "rad", "deg": "°"}
+FOLDING = (
+    "rms_over_span",
+    "max_over_span",
+    "edge_strain_max",
+    "edge_strain_rms",
+    "angle_defect_max_rad",
+    "planarity_max",
+    "planarity_mean",
+    "neutral_fold_mean_deg",
+    "flipped_folds",
+    "self_intersections",
+    "plan_coverage",
+    "beyond_border_m",
+    "unfold_closure_m",
+    "refold_closure_m",
+)
+HEADLINES = (
+    "volume_m3",
+    "area_m2",
+    "utilization_panel_mean_max",
+    "governing_combination",
+    "utilization_p99",
+    "utilization_max",
+    "utilization_mean",
+    "displacement_vertical_max_m",
+    "panels_above_one",
+    "panels_at_bound",
+    "reaction_imbalance",
+    "mesh_subdivisions",
+    "dofs",
+)
 
 
 @dataclass(frozen=True)
@@ -50,12 +58,12 @@ class DesignFiles:
     """What the files of a design say; `history` are the rows of history.csv."""
 
     design: Design
-    final: Mapping[str, Any]
-    quality: Mapping[str, Any]
-    classes: Mapping[str, Any]
-    mesh_convergence: Mapping[str, Any]
-    comparison: Mapping[str, Any]
-    history: Sequence[Mapping[str, str]]
+    final: AnalysisRecord
+    quality: QualityRecord
+    classes: ClassesRecord
+    mesh_convergence: MeshConvergenceRecord
+    comparison: ComparisonRecord
+    history: Sequence[HistoryRow]
 
 
 @dataclass(frozen=True)
@@ -81,18 +89,26 @@ class Section:
 
 
 def read_files(design: Design, paths: Mapping[str, str | Path]) -> DesignFiles:
-    """Read final, quality, classes, mesh_convergence, comparison (JSON) and history (CSV)."""
-    names = ("final", "quality", "classes", "mesh_convergence", "comparison")
-    with Path(paths["history"]).open(encoding="utf-8", newline="") as stream:
-        history = list(csv.DictReader(stream))
-    return DesignFiles(design, *(read_json(paths[name]) for name in names), history)
+    """Read final, quality, classes, mesh_convergence, comparison (JSON) and history (CSV).
+
+    Raises `InputError` for a file that is missing or damaged.
+    """
+    return DesignFiles(
+        design=design,
+        final=read_analysis(paths["final"]),
+        quality=read_record(paths["quality"], QualityRecord),
+        classes=read_record(paths["classes"], ClassesRecord),
+        mesh_convergence=read_record(paths["mesh_convergence"], MeshConvergenceRecord),
+        comparison=read_comparison(paths["comparison"]),
+        history=read_rows(paths["history"], HistoryRow),
+    )
 
 
 def make_sections(files: DesignFiles, utilization_max: float) -> list[Section]:
     """Return all sections of a design's page, what matters most first."""
     return [
-        make_verdict(files.final),
-        make_criteria(files.final.get("criteria") or {}),
+        make_verdict(files.final, files.history),
+        make_criteria(files.final.criteria),
         make_history(files.history, utilization_max),
         make_headlines(files.final),
         make_crosscheck(files.comparison),
@@ -112,112 +128,113 @@ def describe_design(design: Design) -> str:
     )
 
 
-def make_verdict(final: Mapping[str, Any]) -> Section:
-    """Return verdict, count of analyses and reason."""
-    verdict = str(final.get("verdict"))
-    kind = "good" if verdict in GOOD_VERDICTS else "bad"
+def make_verdict(final: AnalysisRecord, history: Sequence[HistoryRow] = ()) -> Section:
+    """Return verdict, count of analyses and reason; below it that a person changed panels."""
+    kind = "good" if final.verdict in GOOD_VERDICTS else "bad"
     words = f"after {count_analyses(final)}"
-    box = Box(kind, words, verdict.replace("_", " "), final.get("reason") or "")
-    return Section("Verdict", box)
+    box = Box(kind, words, final.verdict.replace("_", " "), final.reason)
+    return Section("Verdict", box, note=describe_edits(history))
 
 
-def make_criteria(criteria: Mapping[str, Mapping[str, Any]]) -> Section:
+def describe_edits(history: Sequence[HistoryRow]) -> str:
+    """Say in which workbooks a person changed panels, nothing where nobody has."""
+    edits = [f"{row.iteration:02d} ({row.edited_panels} panels)"
+             for row in history if row.edited_panels]  # fmt: skip
+    return (
+        f"A person changed thicknesses in the workbook of iteration {', '.join(edits)}; "
+        "the allowed iterations count from there."
+        if edits
+        else ""
+    )
+
+
+def make_criteria(criteria: Criteria) -> Section:
     """Return the criteria with value, limit and whether they are met."""
-    if not criteria:
-        return Section("Criteria", words="No criteria: the analysis gave no results.")
     rows = [
-        (name_quantity(name), item.get("value"), item.get("limit"), _judge(item.get("met")))
-        for name, item in criteria.items()
+        (about.label(), item.value, item.limit, _judge(item.met))
+        for about, item in criteria.items()
     ]
+    if not rows:
+        return Section("Criteria", words="No criteria: the analysis gave no results.")
     return Section("Criteria", table=make_table(("criterion", "value", "limit", "met"), rows))
 
 
-def name_quantity(key: str, unit: bool = True) -> str:
-    """Return the words of a key, its unit in brackets: displacement_m is "displacement [m]"."""
-    stem, _, last = key.rpartition("_")
-    if stem and last in UNITS:
-        return stem.replace("_", " ") + (f" [{UNITS[last]}]" if unit else "")
-    return key.replace("_", " ")
+def name_quantity(key: str, unit: str = "-") -> str:
+    """Return the words of a compared quantity, `S2 work_knm`, with its unit in brackets."""
+    *combination, name = key.split(" ")
+    about = entries(CombinationStudy).get(name)
+    words = about.words if about else name_key(name, unit)
+    shown = "" if unit == "-" else f" [{SIGNS.get(unit, unit)}]"
+    return " ".join([*combination, words]) + shown
 
 
 def _judge(met: Any) -> Cell:
     return Cell("–") if met is None else Cell("yes", "good") if met else Cell("no", "bad")
 
 
-def make_headlines(final: Mapping[str, Any]) -> Section:
+def make_headlines(final: AnalysisRecord) -> Section:
     """Return the numbers of the final state, and the buckling factors."""
-    factors = final.get("buckling_factor") or {}
+    factors = final.buckling_factor
     words = ", ".join(f"{name} {format_number(value)}" for name, value in factors.items())
     note = f"Buckling factors: {words}" if words else ""
     return _list_quantities(Section("Final state", note=note), HEADLINES, final)
 
 
-def make_folding(quality: Mapping[str, Any]) -> Section:
+def make_folding(quality: QualityRecord) -> Section:
     """Return state, reason and measures of the folded sheet."""
-    state = str(quality.get("state", "")).replace("_", " ")
-    words = f"{state}: {quality.get('reason') or 'no reason given'}"
+    words = f"{quality.state.replace('_', ' ')}: {quality.reason or 'no reason given'}"
     return _list_quantities(Section("Folding", words=words), FOLDING, quality)
 
 
-def _list_quantities(
-    section: Section, labels: Mapping[str, str], values: Mapping[str, Any]
-) -> Section:
-    """Return the section with a table of the labelled values that there are."""
-    rows = [(words, values[name]) for name, words in labels.items() if name in values]
-    if not rows:
-        return replace(section, words=f"{section.words} No results.".strip())
+def _list_quantities(section: Section, keys: Sequence[str], record: Any) -> Section:
+    """Return the section with a table of the fields of a record that have a value."""
+    known = entries(type(record))
+    values = [(known[key].label(), getattr(record, known[key].attribute)) for key in keys]
+    rows = [(words, value) for words, value in values if value is not None]
     return replace(section, table=make_table(("quantity", "value"), rows))
 
 
-def make_classes(classes: Mapping[str, Any]) -> Section:
+def make_classes(classes: ClassesRecord) -> Section:
     """Return the thickness classes and the verdict on the grouped design."""
-    title = "Thickness classes"
-    if not classes.get("classes"):
-        return Section(title, words=f"No classes: {classes.get('reason') or 'none were asked for'}")
-    rows = [
-        (item["class"], 1e3 * item["thickness_m"], item["panels"], item["area_m2"])
-        for item in classes["classes"]
-    ]
-    added = classes.get("added_volume_relative")
-    share = "" if added is None else f", volume {100 * added:+.1f} %"
-    verdict = str(classes.get("verdict")).replace("_", " ")
-    words = f"{verdict}{share}: {classes.get('reason') or ''}"
+    rows = [(one.number, 1e3 * one.thickness_m, one.panels, one.area_m2) for one in classes.classes]
+    share = f", volume {100 * classes.added_volume_relative:+.1f} %"
     return Section(
-        title,
-        words=words,
+        "Thickness classes",
+        words=f"{classes.verdict.replace('_', ' ')}{share}: {classes.reason}",
         table=make_table(("class", "thickness [mm]", "panels", "area [m²]"), rows),
     )
 
 
-def make_mesh_error(study: Mapping[str, Any]) -> Section:
+def make_mesh_error(record: MeshConvergenceRecord) -> Section:
     """Return how far each headline number is from that of a finer mesh."""
-    errors = study.get("errors") or {}
+    errors = record.errors
     if not errors:
-        return Section("Mesh error", words=f"Not measured: {study.get('reason') or 'no results'}")
+        reason = record.study.reason or "no results"
+        return Section("Mesh error", words=f"Not measured: {reason}")
     names = list(dict.fromkeys(name for one in errors.values() for name in one))
     header = ["difference to the fine mesh", *(f"{name} [%]" for name in errors)]
     rows = [
-        (name_quantity(name, unit=False), *(_percent(one.get(name)) for one in errors.values()))
+        (name_quantity(name), *(_percent(one.get(name)) for one in errors.values()))
         for name in names
     ]
     return Section("Mesh error", table=make_table(header, rows))
 
 
-def make_crosscheck(comparison: Mapping[str, Any]) -> Section:
+def make_crosscheck(comparison: ComparisonRecord) -> Section:
     """Return both codes side by side with their tolerance."""
-    passed = comparison.get("pass")
+    passed = comparison.passed
     words = "every quantity is within its tolerance" if passed else "not within tolerance"
-    note = comparison.get("note") or comparison.get("reason")
+    note = comparison.reason
     rows = [
         (
-            name_quantity(name),
-            item.get("primary"),
-            item.get("independent"),
-            _percent(item.get("relative_difference")),
-            _percent(item.get("tolerance")),
-            _judge(item.get("pass")),
+            name_quantity(name, item.unit),
+            item.primary,
+            item.independent,
+            _percent(item.relative_difference),
+            _percent(item.tolerance),
+            _judge(item.passed),
         )
-        for name, item in (comparison.get("quantities") or {}).items()
+        for name, item in comparison.quantities.items()
     ]
     header = ("quantity", "primary", "independent", "difference [%]", "tolerance [%]", "within")
     return Section(
@@ -231,19 +248,18 @@ def _percent(value: float | None) -> float | None:
     return None if value is None else 100 * value
 
 
-def make_history(history: Sequence[Mapping[str, str]], utilization_max: float) -> Section:
+def make_history(history: Sequence[HistoryRow], utilization_max: float) -> Section:
     """Return the chart of volume, utilization and displacement over the iterations."""
-
-    def column(name: str, factor: float = 1.0) -> list[float | None]:
-        """Numbers of a column, None where it is empty."""
-        return [factor * float(row[name]) if row.get(name) else None for row in history]
-
-    limits = [value for value in column("displacement_limit_m", 1e3) if value is not None]
+    known = entries(HistoryRow)
+    limits = [row.displacement_limit_m for row in history if row.displacement_limit_m is not None]
+    down = known["displacement_vertical_max_m"].label(unit=False)
+    moved = [row.displacement_vertical_max_m for row in history]
     chart = draw_history([
-        Series("volume [m³]", column("volume_m3"), {}),
-        Series("utilization, largest panel mean [-]", column("utilization_panel_mean_max"),
+        Series(known["volume_m3"].label(), [row.volume_m3 for row in history], {}),
+        Series(known["utilization_panel_mean_max"].label(),
+               [row.utilization_panel_mean_max for row in history],
                {f"limit {utilization_max:g}": utilization_max}),
-        Series("vertical displacement, down [mm]", column("displacement_vertical_max_m", 1e3),
-               {"limit": limits[-1]} if limits else {}),
+        Series(f"{down} [mm]", [None if one is None else 1e3 * one for one in moved],
+               {"limit": 1e3 * limits[-1]} if limits else {}),
     ])  # fmt: skip
     return Section("History", chart=chart)

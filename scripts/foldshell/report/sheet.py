@@ -40,7 +40,7 @@ def find_marks(view: DesignView, final: AnalysisRecord) -> list[Mark]:
     """Return the places that govern: largest panel mean, displacement and buckling mode."""
     state, marks = view.state, []
     if state.utilization is not None:
-        panel = int(np.argmax(state.final["utilization_panel_mean"]))
+        panel = int(np.argmax(state.final.utilization_panel_mean))
         middle = state.folded["vertices"][state.folded["quads"][panel]].mean(axis=0)
         marks.append(Mark("U", f"utilization, panel {panel}", middle.tolist()))
     if final.displacement_place_m:
@@ -93,7 +93,7 @@ def _bar(check: Check) -> dict[str, Any]:
 
 
 def _geometry(design: Design, final: AnalysisRecord, view: DesignView) -> Table:
-    thickness = 1e3 * view.state.final["thickness"]
+    thickness = 1e3 * view.state.final.thickness
     size = np.ptp(view.state.cells.nodes, axis=0)
     rows = [
         ("pattern, surface", f"{design.pattern}, {design.surface}"),

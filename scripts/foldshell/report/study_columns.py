@@ -1,10 +1,10 @@
 """The columns of summary.csv as the report shows them: words, unit, kind, verdicts."""
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 
-from foldshell.records.entry import COUNT, Entry, entries, strip_null
+from foldshell.records.entry import Entry, entries, strip_null
 from foldshell.records.summary import SummaryRow
 from foldshell.report.checks import Check
 from foldshell.report.markup import Cell
@@ -36,50 +36,42 @@ class Column:
 GOVERNING = Column("governing_share", "governing check [% of its limit]", True, chosen=True)
 
 
-def choose_columns(rows: Sequence[Mapping[str, str]]) -> list[Column]:
+def choose_columns(rows: Sequence[SummaryRow]) -> list[Column]:
     """Return the columns in which a design has a value, the governing check after the verdicts."""
-    known = entries(SummaryRow)
-    keys = [key for key in rows[0] if key not in HIDDEN and any(row[key] for row in rows)]
-    columns = [_make_column(key, known.get(key), rows) for key in keys]
+    columns = [
+        _make_column(about)
+        for key, about in entries(SummaryRow).items()
+        if key not in HIDDEN and any(getattr(row, key) not in (None, "") for row in rows)
+    ]
     columns.sort(key=lambda column: column.key not in JUDGED)
     place = sum(column.key in JUDGED for column in columns)
     return [*columns[:place], GOVERNING, *columns[place:]]
 
 
-def _make_column(key: str, about: Entry | None, rows: Sequence[Mapping[str, str]]) -> Column:
-    if about is None:
-        numeric = all(_is_number(row[key]) for row in rows if row[key])
-        return Column(key, key.replace("_", " "), numeric)
-    numeric = strip_null(about.type) in (int, float) or about.unit in ("-", COUNT)
+def _make_column(about: Entry) -> Column:
+    key, numeric = about.key, strip_null(about.type) in (int, float)
     words, factor = about.label(), 1.0
     if key in IN_MM:
-        words, factor = f"{about.label(unit=False)} [mm]", 1e3
+        words, factor = f"{about.words} [mm]", 1e3
     elif key in PERCENT:
-        words, factor = f"{about.label(unit=False)} [%]", 100.0
+        words, factor = f"{about.words} [%]", 100.0
     return Column(key, words, numeric, factor, key in DEFAULT_LINES)
 
 
-def _is_number(text: str) -> bool:
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True
-
-
 def make_row(
-    row: Mapping[str, str], columns: Sequence[Column], governing: Check | None
+    row: SummaryRow, columns: Sequence[Column], governing: Check | None
 ) -> dict[str, Cell]:
     """Return the cells of a design by column: numbers in the unit shown, verdicts with a class."""
     cells = {}
     for column in columns:
-        text = row.get(column.key, "")
+        value = getattr(row, column.key, None)
         if column.key == GOVERNING.key:
             known = governing is not None and governing.ratio is not None
             cells[column.key] = Cell(100 * governing.ratio if known else None)
         elif column.numeric:
-            cells[column.key] = Cell(column.factor * float(text) if text else None)
+            cells[column.key] = Cell(None if value is None else column.factor * value)
         else:
+            text = value or ""
             kind = judge(text) if column.key in JUDGED else ""
             cells[column.key] = Cell(text.replace("_", " ") or None, kind)
     return cells
@@ -92,15 +84,18 @@ def judge(text: str) -> str:
     return "good" if text in GOOD_VERDICTS else "bad"
 
 
-def count_verdicts(rows: Sequence[Mapping[str, str]]) -> dict[str, list[tuple[str, int, str]]]:
+def count_verdicts(rows: Sequence[SummaryRow]) -> dict[str, list[tuple[str, int, str]]]:
     """Return how many designs have each verdict: of sizing, cross-check and engineering.
 
     A verdict is its words, the count, and good or bad; a kind that no design has is empty.
     """
     kinds = {"sizing": "state", "cross-check": "crosscheck", "engineering checks": "engineering"}
+    found = {
+        words: Counter(getattr(row, key, None) or "" for row in rows)
+        for words, key in kinds.items()
+    }
     return {
         words: [(text.replace("_", " "), count, judge(text))
-                for text, count in Counter(row.get(key) or "" for row in rows).most_common()
-                if text]
-        for words, key in kinds.items()
+                for text, count in counts.most_common() if text]
+        for words, counts in found.items()
     }  # fmt: skip

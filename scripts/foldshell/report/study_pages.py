@@ -1,74 +1,90 @@
 """Pages over all designs: summary, claims, verification, settings and versions."""
 
-import csv
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from foldshell.records.entry import Entry, entries, strip_null
+from foldshell.records.summary import SummaryRow
+from foldshell.records.table import read_rows
 from foldshell.report.markdown import render_markdown
 from foldshell.report.markup import Cell, Table, make_table, render
 from foldshell.workbook.styles import GOOD_VERDICTS
 
 JUDGED = ("state", "crosscheck")
 """Columns whose words are good or bad."""
-COLUMNS: dict[str, tuple[str, float]] = {
-    "state": ("verdict", 0),
-    "surface": ("surface", 0),
-    "span_m": ("span [m]", 1),
-    "height_m": ("height [m]", 1),
-    "zigzag": ("zig-zags", 1),
-    "strip": ("strips", 1),
-    "support": ("supported", 0),
-    "volume_m3": ("volume [m³]", 1),
-    "volume_per_area_m": ("volume / area [mm]", 1e3),
-    "utilization_mean": ("utilization, mean [-]", 1),
-    "utilization_p99": ("utilization, 99 % [-]", 1),
-    "displacement_vertical_max_m": ("displacement, down [mm]", 1e3),
-    "buckling_factor_min": ("buckling factor [-]", 1),
-    "mesh_error": ("mesh error [%]", 100),
-    "crosscheck": ("cross-check", 0),
-    "edge_strain_max": ("largest strain of an edge, folding [%]", 100),
-    "planarity_max": ("planarity, largest [%]", 100),
-    "iterations": ("iterations", 1),
-    "reason": ("reason", 0),
+SCALED = {
+    "volume_per_area_m": ("mm", 1e3),
+    "displacement_vertical_max_m": ("mm", 1e3),
+    "mesh_error": ("%", 100.0),
+    "edge_strain_max": ("%", 100.0),
+    "planarity_max": ("%", 100.0),
 }
-"""Columns of the summary that the page shows: words, and the factor of numbers (0: text)."""
-
-
-def read_rows(path: str | Path) -> list[dict[str, str]]:
-    """Read the rows of summary.csv."""
-    with Path(path).open(encoding="utf-8", newline="") as stream:
-        return list(csv.DictReader(stream))
+"""Columns that are shown in another unit than that of the file, and the factor to it."""
+COLUMNS = (
+    "state",
+    "surface",
+    "span_m",
+    "height_m",
+    "zigzag",
+    "strip",
+    "support",
+    "volume_m3",
+    "volume_per_area_m",
+    "utilization_panel_mean_max",
+    "utilization_p99",
+    "utilization_mean",
+    "displacement_vertical_max_m",
+    "buckling_factor_min",
+    "mesh_error",
+    "crosscheck",
+    "edge_strain_max",
+    "planarity_max",
+    "iterations",
+    "edited_panels",
+    "reason",
+)
+"""Columns of the summary that the page shows."""
 
 
 def write_summary_page(path: str | Path) -> str:
-    """Return the page of summary.csv: a table that sorts by the column that is clicked."""
-    rows = read_rows(path)
+    """Return the page of summary.csv: a table that sorts by the column that is clicked.
+
+    Raises `InputError` for a damaged table.
+    """
+    rows = read_rows(path, SummaryRow)
     counts: dict[str, int] = {}
     for row in rows:
-        counts[row["state"]] = counts.get(row["state"], 0) + 1
-    columns = {name: item for name, item in COLUMNS.items() if rows and name in rows[0]}
+        counts[row.state] = counts.get(row.state, 0) + 1
+    columns = [entries(SummaryRow)[key] for key in COLUMNS]
     return render(
         "summary.html",
         title="Summary",
         counts=", ".join(f"{n} {state.replace('_', ' ')}" for state, n in counts.items()),
-        checked=sum(row["crosscheck"] == "pass" for row in rows),
-        columns=list(columns.values()),
-        rows=[(row["design"], _make_cells(row, columns)) for row in rows],
+        checked=sum(row.crosscheck == "pass" for row in rows),
+        columns=[(_head(about), _is_number(about)) for about in columns],
+        rows=[(row.design, [_make_cell(row, about) for about in columns]) for row in rows],
     )
 
 
-def _make_cells(row: Mapping[str, str], columns: Mapping[str, tuple[str, float]]) -> list[Cell]:
-    """Return a number, or a text with its class, for each column."""
-    cells = []
-    for key, (_, factor) in columns.items():
-        text = row[key]
-        if factor and text:
-            cells.append(Cell(factor * float(text)))
-        else:
-            kind = _judge(text) if key in JUDGED else "number" if factor else ""
-            cells.append(Cell(text.replace("_", " ") or "–", kind))
-    return cells
+def _head(about: Entry) -> str:
+    unit, _ = SCALED.get(about.key, ("", 1.0))
+    return f"{about.words} [{unit}]" if unit else about.label()
+
+
+def _is_number(about: Entry) -> bool:
+    return strip_null(about.type) in (int, float)
+
+
+def _make_cell(row: SummaryRow, about: Entry) -> Cell:
+    """Return a number in the unit of the page, or a text with its class."""
+    value = getattr(row, about.attribute)
+    if value is not None and _is_number(about):
+        _, factor = SCALED.get(about.key, ("", 1))
+        return Cell(factor * value)
+    text = str(value or "")
+    kind = _judge(text) if about.key in JUDGED else "number" if _is_number(about) else ""
+    return Cell(text.replace("_", " ") or "–", kind)
 
 
 def _judge(text: str) -> str:

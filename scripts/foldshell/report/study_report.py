@@ -1,7 +1,6 @@
 """The report of a study: cover, contact sheet, comparison, claims, verification, settings."""
 
 import base64
-import csv
 import io
 from collections import Counter
 from collections.abc import Mapping, Sequence
@@ -17,6 +16,8 @@ from foldshell.records.claims import ClaimRecord
 from foldshell.records.comparison import ComparisonRecord, read_comparison
 from foldshell.records.files import read_record, read_records
 from foldshell.records.mesh_convergence import MeshConvergenceRecord
+from foldshell.records.summary import SummaryRow
+from foldshell.records.table import read_rows
 from foldshell.report.checks import Check, find_governing, list_checks, read_engineering
 from foldshell.report.loads_section import describe_loads
 from foldshell.report.markdown import render_markdown
@@ -38,7 +39,7 @@ SIZE_MAX = 20_000_000
 class DesignEntry:
     """One design of the report: its row of summary.csv, and what its own files say of it."""
 
-    row: Mapping[str, str]
+    row: SummaryRow
     final: AnalysisRecord
     checks: Sequence[Check]
     comparison: ComparisonRecord
@@ -47,7 +48,7 @@ class DesignEntry:
     @property
     def name(self) -> str:
         """Name of the design."""
-        return self.row["design"]
+        return self.row.design
 
 
 @dataclass(frozen=True)
@@ -67,14 +68,13 @@ def read_study(
     figures: Mapping[str, str | Path], claims: str | Path | None, verification: str,
 ) -> StudyFiles:  # fmt: skip
     """Read summary.csv, the files of each design in `results`, tiles.json and claims.json."""
-    with Path(summary).open(encoding="utf-8", newline="") as stream:
-        rows = list(csv.DictReader(stream))
-    designs = [_read_design(row, Path(results, row["design"])) for row in rows]
+    rows = read_rows(summary, SummaryRow)
+    designs = [_read_design(row, Path(results, row.design)) for row in rows]
     judged = read_records(claims, ClaimRecord) if claims else []
     return StudyFiles(study, designs, read_json(tiles), figures, judged, verification)
 
 
-def _read_design(row: Mapping[str, str], folder: Path) -> DesignEntry:
+def _read_design(row: SummaryRow, folder: Path) -> DesignEntry:
     final = read_analysis(folder / "sizing/final.json")
     return DesignEntry(
         row,
@@ -142,7 +142,7 @@ def _make_card(
         "values": {key: cell.value for key, cell in row.items()},
         "kinds": {key: cell.kind for key, cell in row.items() if cell.kind},
         "governing": governing.words if governing else "no check has a value",
-        "tags": [tag for tag in entry.row["tags"].split(",") if tag],
+        "tags": [tag for tag in entry.row.tags.split(",") if tag],
         "pictures": {name: sheet["pictures"].get(entry.name, "") for name, sheet in tiles.items()},
     }
 
@@ -153,15 +153,15 @@ def _leave_out_first_picture(card: Mapping[str, Any]) -> dict[str, Any]:
     return {**card, "pictures": pictures}
 
 
-def describe_kinds(rows: Sequence[Mapping[str, str]]) -> str:
+def describe_kinds(rows: Sequence[SummaryRow]) -> str:
     """Return what was studied in one sentence: surfaces, sizes, supports, patterns."""
     parts = []
     for key, one, many in (("surface", "surface", "surfaces"), ("support", "kind of support",
                            "kinds of support"), ("pattern", "pattern", "patterns"),
                            ("fold_mode", "folding mode", "folding modes")):  # fmt: skip
-        found = Counter(row[key] for row in rows)
+        found = Counter(getattr(row, key) for row in rows)
         parts.append(f"{len(found)} {one if len(found) == 1 else many} ({', '.join(found)})")
-    sizes = sorted({(float(row["span_m"]), float(row["height_m"])) for row in rows})
+    sizes = sorted({(row.span_m, row.height_m) for row in rows})
     words = ", ".join(f"{span:g}/{height:g}" for span, height in sizes)
     return f"{'; '.join(parts)}; span/height {words} m"
 

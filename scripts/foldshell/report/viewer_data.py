@@ -107,8 +107,8 @@ def _panel_values(state: DesignState) -> dict[str, np.ndarray]:
     }
     if state.utilization is not None:
         values["panel_utilization"] = state.panel_utilization
-    if state.classes:
-        values["panel_class"] = state.classes["panel_class"]
+    if state.classes is not None:
+        values["panel_class"] = state.classes.panel_class
     return values
 
 
@@ -130,7 +130,7 @@ def _fields(view: DesignView, grid: _Grid) -> dict[str, tuple]:
         down = -1e3 * grid.at_nodes(state.displacement_at_nodes(name))[:, 2]
         words = f"vertical displacement, down [mm], {name}"
         fields["displacement"] = words, down, make_scale(down, "cividis"), {"at": "node"}
-    if state.classes:
+    if state.classes is not None:
         fields["class"] = _class_field(state)
     planarity = 100 * _pad(state, state.folded["planarity"])
     words = "planarity: distance of diagonals / their mean length [%]"
@@ -158,7 +158,7 @@ def _utilization_fields(view: DesignView, grid: _Grid) -> dict[str, tuple]:
 
 def _class_field(state: DesignState) -> tuple:
     """Return the number of each panel's class, with their thicknesses for the legend."""
-    number, thickness = state.classes["panel_class"], 1e3 * state.classes["thickness"]
+    number, thickness = state.classes.panel_class, 1e3 * state.classes.thickness
     count = int(number.max())
     names = {
         k: f"{k}: {thickness[number == k].max():.0f} mm" if (number == k).any() else str(k)

@@ -38,7 +38,7 @@ def evaluate_combinations(state: DesignState, material: Material) -> Combination
     mesh = state.mesh
     operators = build_operators(mesh, material.poissons_ratio)
     geometry, thickness = operators.geometry, state.panel_thickness[mesh.panel]
-    moved = state.final["displacement"]
+    moved = state.final.displacement
     found = stress_resultants(operators, moved, thickness, material.youngs_modulus)
     strength = moved[:, : len(state.strength)]
     values = utilization_of_combinations(operators, strength, thickness, material)

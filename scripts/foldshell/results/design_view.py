@@ -1,12 +1,11 @@
 """What pictures, pages and exports of a design share: its final state, creases, limits."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any
 
 import numpy as np
 
+from foldshell.records.analysis import AnalysisRecord
 from foldshell.results.creases import Creases, find_creases
 from foldshell.results.fields import choose_strength, membrane_force_coefficients
 from foldshell.results.principal_stress_lines import (
@@ -65,7 +64,7 @@ def view_design(
     return make_design_view(state, span, settings.sizing, settings.material, pattern != "smooth")
 
 
-def count_analyses(report: Mapping[str, Any]) -> str:
+def count_analyses(report: AnalysisRecord) -> str:
     """Return the count of analyses in words."""
-    count = report.get("iteration", 0) + 1
+    count = report.iteration + 1
     return f"{count} {'analysis' if count == 1 else 'analyses'}"

@@ -24,7 +24,7 @@ def cell_area(state: DesignState) -> np.ndarray:
 
 def choose_deflection(state: DesignState) -> str:
     """Return the combination with the largest downward displacement."""
-    named = state.report.get("displacement_combination")
+    named = state.report.displacement_combination
     if named in state.combinations:
         return named
     down = [-state.displacement_at_nodes(name)[:, 2].min() for name in state.deflection]
@@ -33,7 +33,7 @@ def choose_deflection(state: DesignState) -> str:
 
 def choose_strength(state: DesignState) -> str:
     """Return the strength combination that governs the largest area, the first without any."""
-    governing = state.final.get("governing_combination")
+    governing = state.final.governing_combination
     if governing is None:
         return state.strength[0]
     area = np.bincount(governing.ravel(), cell_area(state), len(state.strength))
@@ -42,11 +42,10 @@ def choose_strength(state: DesignState) -> str:
 
 def choose_buckling(state: DesignState) -> tuple[str, float] | None:
     """Return the combination with the least buckling factor and that factor, None without modes."""
-    factors = state.report.get("buckling_factor") or {}
-    known = {name: value for name, value in factors.items() if value is not None}
-    if "buckling_modes" not in state.final or not known:
+    report = state.report
+    if state.final.buckling_modes is None or report.least_factor is None:
         return None
-    return min(known.items(), key=lambda item: item[1])
+    return report.least_factor_combination, report.least_factor
 
 
 def membrane_force_coefficients(
@@ -56,7 +55,7 @@ def membrane_force_coefficients(
     mesh = state.mesh
     operators = build_operators(mesh, poissons_ratio)
     column = state.combinations.index(combination)
-    displacement = state.final["displacement"][:, column : column + 1]
+    displacement = state.final.displacement[:, column : column + 1]
     thickness = state.panel_thickness[mesh.panel]
     force = membrane_forces(operators, displacement, thickness, youngs_modulus)
     return force[..., 0], operators.geometry

@@ -4,16 +4,19 @@ import shutil
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from foldshell.files.edits import keep_edited
 from foldshell.files.errors import InputError
 from foldshell.files.job_record import FOLDER
-from foldshell.files.whole import TEMPORARY_PREFIX, read_arrays, read_json
+from foldshell.files.whole import TEMPORARY_PREFIX, atomic_path
+from foldshell.records.analysis import AnalysisRecord, write_analysis
+from foldshell.records.analysis_arrays import AnalysisArrays
+from foldshell.records.edits import keep_edited
+from foldshell.records.files import REMEDY
+from foldshell.records.history import HistoryRow
+from foldshell.records.iteration import read_iteration
 from foldshell.results.history import make_history
-from foldshell.settings.design import Design
 from foldshell.settings.sizing import Sizing
 
 SUPERSEDED = "superseded"
@@ -21,49 +24,48 @@ SUPERSEDED = "superseded"
 
 @dataclass(frozen=True)
 class Iterations:
-    """Contents of every analysis.json, the rows of the history, and the last analysis.npz."""
+    """Every analysis, the rows of the history, and the last analysis.npz; thickness (P,) m and
+    utilization (P,), by the measure of the loop, of that analysis, nan without an answer."""
 
-    analyses: list[dict[str, Any]]
-    history: list[dict[str, Any]]
+    analyses: list[AnalysisRecord]
+    history: list[HistoryRow]
     last_arrays: Path
     thickness: np.ndarray
     utilization: np.ndarray
 
 
-def gather_iterations(
-    json_paths: Sequence[str | Path], design: Design, sizing: Sizing
-) -> Iterations:
-    """Read the iterations in order.
+def gather_iterations(json_paths: Sequence[str | Path], span: float, sizing: Sizing) -> Iterations:
+    """Read the iterations in order; span m.
 
     Raises
     ------
     InputError
         for a file that is missing, damaged or out of order.
     """
-    analyses = [_read(Path(path), number) for number, path in enumerate(json_paths)]
-    arrays_paths = [Path(path).with_suffix(".npz") for path in json_paths]
-    arrays = [read_arrays(path) for path in arrays_paths]
-    thicknesses = [item["thickness"] for item in arrays]
-    limit = design.span / sizing.displacement_limit_span_over
-    edited = [item["iteration"] for item in analyses if item.get("edited")]
-    history = make_history(analyses, thicknesses, limit, edited)
-    utilization = arrays[-1].get(f"utilization_{sizing.measure}")
+    both = [_read(path, number) for number, path in enumerate(json_paths)]
+    analyses, arrays = [one for one, _ in both], [fields for _, fields in both]
+    thicknesses = [item.thickness for item in arrays]
+    history = make_history(analyses, thicknesses, span / sizing.displacement_limit_span_over)
+    utilization = arrays[-1].utilization(sizing.measure)
     if utilization is None:
         utilization = np.full(len(thicknesses[-1]), np.nan)
-    return Iterations(analyses, history, arrays_paths[-1], thicknesses[-1], utilization)
+    return Iterations(
+        analyses, history, Path(json_paths[-1]).with_suffix(".npz"), thicknesses[-1], utilization
+    )
 
 
-def _read(path: Path, number: int) -> dict[str, Any]:
-    try:
-        data = read_json(path)
-    except (OSError, ValueError):
-        data = None
-    if not isinstance(data, dict) or data.get("iteration") != number or "verdict" not in data:
-        raise InputError(
-            f"{path}: not the analysis of iteration {number}: delete this file and start again, "
-            "it is computed anew"
-        )
-    return data
+def write_final(json_path: str | Path, arrays_path: str | Path, iterations: Iterations) -> None:
+    """Write final.npz and final.json, which are those of the last analysis."""
+    with atomic_path(arrays_path) as temporary:
+        shutil.copyfile(iterations.last_arrays, temporary)
+    write_analysis(json_path, iterations.analyses[-1])
+
+
+def _read(path: str | Path, number: int) -> tuple[AnalysisRecord, AnalysisArrays]:
+    record, arrays = read_iteration(path)
+    if record.iteration != number:
+        raise InputError(f"{path}: iteration: {record.iteration}: must be {number}: {REMEDY}")
+    return record, arrays
 
 
 def remove_superseded(sizing: Path, count: int) -> list[int]:

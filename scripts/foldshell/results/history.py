@@ -1,85 +1,56 @@
-"""The history of a sizing loop as plain rows, one per iteration."""
+"""The history of a sizing loop, one row per iteration, and who changed what in it."""
 
-from collections.abc import Mapping, Sequence
-from typing import Any
+from collections.abc import Sequence
+from dataclasses import fields
 
 import numpy as np
 
+from foldshell.records.analysis import AnalysisRecord
+from foldshell.records.history import HistoryRow
 from foldshell.sizing.rounding import FloatArray
 
-Row = Mapping[str, Any]
-
-HISTORY_KEYS = (
-    "iteration",
-    "verdict",
-    "edited",
-    "volume_m3",
-    "volume_change_m3",
-    "utilization_max",
-    "utilization_p99",
-    "utilization_panel_mean_max",
-    "panels_above_one",
-    "panels_at_bound",
-    "displacement_vertical_max_m",
-    "displacement_limit_m",
-    "buckling_factor_min",
-    "thickness_min_m",
-    "thickness_mean_m",
-    "thickness_max_m",
-    "second_order_iterations",
-    "reaction_imbalance",
-    "reason",
+COPIED = tuple(
+    {one.name for one in fields(HistoryRow)}
+    & {one.name for one in fields(AnalysisRecord)} - {"edited", "edited_panels"}
 )
-EDGE_BEAM_KEYS = ("edge_beam_utilization_max", "edge_beam_utilization_panel_mean_max")
-"""Columns after `reason` where a design has an edge beam."""
-
-
-def find_least_factor(analysis: Mapping[str, Any]) -> float | None:
-    """Return the least buckling factor of all combinations, None where none was found."""
-    factors = analysis.get("buckling_factor") or {}
-    values = [float(factor) for factor in factors.values() if factor is not None]
-    return min(values) if values else None
+"""Columns that are those of the analysis."""
 
 
 def make_history(
-    analyses: Sequence[Mapping[str, Any]],
+    analyses: Sequence[AnalysisRecord],
     thicknesses: Sequence[FloatArray] | None = None,
     displacement_limit: float | None = None,
-    edited: Sequence[int] = (),
-) -> list[dict[str, Any]]:
-    """Return one row per iteration from the contents of its `analysis.json`.
+) -> list[HistoryRow]:
+    """Return one row per iteration.
 
-    `thicknesses` are those that each analysis read (m), `displacement_limit` is in m, and
-    `edited` holds the iterations whose workbook a person has changed.
-
-    Each of `thicknesses` is (P,).
+    `thicknesses` are those that each analysis read, (P,) m each; `displacement_limit` is in m.
     """
-    rows: list[dict[str, Any]] = []
+    rows: list[HistoryRow] = []
     for index, analysis in enumerate(analyses):
-        row = {key: analysis.get(key) for key in HISTORY_KEYS}
-        row |= {key: analysis[key] for key in EDGE_BEAM_KEYS if key in analysis}
-        before = rows[-1]["volume_m3"] if rows else None
-        if before is not None and row["volume_m3"] is not None:
-            row["volume_change_m3"] = row["volume_m3"] - before
-        row["displacement_limit_m"] = displacement_limit
-        row["buckling_factor_min"] = find_least_factor(analysis)
-        row["second_order_iterations"] = _largest(analysis.get("second_order_iterations"))
-        row["edited"] = "edited" if row["iteration"] in edited else None
-        if thicknesses is not None:
-            row["thickness_min_m"] = float(np.min(thicknesses[index]))
-            row["thickness_mean_m"] = float(np.mean(thicknesses[index]))
-            row["thickness_max_m"] = float(np.max(thicknesses[index]))
-        rows.append(row)
+        thickness = {} if thicknesses is None else _measure_thickness(thicknesses[index])
+        changed = len(analysis.edited_panels or ())
+        rows.append(
+            HistoryRow(
+                **{name: getattr(analysis, name) for name in COPIED},
+                edited="edited" if analysis.edited else None,
+                edited_panels=changed or None,
+                volume_change_m3=analysis.volume_m3 - rows[-1].volume_m3 if rows else None,
+                displacement_limit_m=displacement_limit,
+                buckling_factor_min=analysis.least_factor,
+                **thickness,
+            )
+        )
     return rows
 
 
-def _largest(value: Any) -> Any:
-    """Return the largest entry of counts by combination, or the one count there is."""
-    if isinstance(value, Mapping):
-        return max((count for count in value.values() if count is not None), default=None)
-    return value
+def _measure_thickness(thickness: FloatArray) -> dict[str, float]:
+    return {
+        "thickness_min_m": float(np.min(thickness)),
+        "thickness_mean_m": float(np.mean(thickness)),
+        "thickness_max_m": float(np.max(thickness)),
+    }
 
 
-def choose_keys(rows: Sequence[Row]) -> tuple[str, ...]:
-    """Return the columns of a history: those of the edge beam only where some row has them."""
-    return HISTORY_KEYS + tuple(key for key in EDGE_BEAM_KEYS if any(key in row for row in rows))
+def collect_edited_panels(analyses: Sequence[AnalysisRecord]) -> set[int]:
+    """Return the panels that a person has changed in some iteration."""
+    return {panel for one in analyses for panel in one.edited_panels or ()}

@@ -52,15 +52,15 @@ def find_reactions(state: DesignState, settings: StageSettings) -> Reactions | N
     if not state.usable:
         return None
     material, model = settings.material, _build(state, settings.material.poissons_ratio)
-    thickness = model.to_elements(state.final["thickness"])
+    thickness = model.to_elements(state.final.thickness)
     normal = model.operators.geometry.frame[:, 2]
     cases = make_load_cases(settings.loads, material.unit_weight)
     surface = surface_loads(normal, thickness, cases, model.self_weight_only)
     names = tuple(case.case for case in cases)
     factors = combination_matrix(settings.combinations.all, names)
     loads = nodal_forces(model.operators, surface) @ factors
-    moved = state.final["displacement"]
-    second = settings.analysis.second_order and state.report.get("state") == "ok"
+    moved = state.final.displacement
+    second = settings.analysis.second_order and state.report.state == "ok"
     result = AnalysisResult("ok", "", state.combinations, moved, moved, loads,
                             second_order=second or None)  # fmt: skip
     force = support_reactions(model, result, thickness, material)

@@ -1,14 +1,17 @@
 """The final state of a design, read once for all its pictures and for design.vtu."""
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from foldshell.files.errors import InputError
-from foldshell.files.whole import read_arrays, read_json
+from foldshell.files.whole import read_arrays
+from foldshell.records.analysis import AnalysisRecord
+from foldshell.records.analysis_arrays import AnalysisArrays, ClassesArrays
+from foldshell.records.arrays import read_typed_arrays
+from foldshell.records.iteration import read_iteration
 from foldshell.settings.loads import Combinations
 from foldshell.shell.mesh import ShellMesh
 from foldshell.shell.mesh_files import (
@@ -24,10 +27,10 @@ class DesignState:
     """Geometry and results of a design.
 
     `mesh` is the shell mesh, `cells` the linear mesh of its result cells and `triangles`
-    (C, 3) those cells; `shell`, `folded`, `final` hold the arrays of mesh.npz, folded.npz,
-    final.npz and `report` is final.json. `strength` and `deflection` name the combinations in
-    the order of the displacement columns. `classes` hold the arrays of sizing/classes.npz. Values
-    of panels (P,) go before those of the edge beam (B,), which have panels of their own.
+    (C, 3) those cells; `shell`, `folded` hold the arrays of mesh.npz, folded.npz. `strength` and
+    `deflection` name the combinations in the order of the displacement columns. `classes` is None
+    where there are none. Values of panels (P,) go before those of the edge beam (B,), which have
+    panels of their own.
     """
 
     name: str
@@ -36,11 +39,11 @@ class DesignState:
     triangles: np.ndarray
     shell: Mapping[str, np.ndarray]
     folded: Mapping[str, np.ndarray]
-    final: Mapping[str, np.ndarray]
-    report: Mapping[str, Any]
+    final: AnalysisArrays
+    report: AnalysisRecord
     strength: tuple[str, ...]
     deflection: tuple[str, ...]
-    classes: Mapping[str, np.ndarray] = field(default_factory=dict)
+    classes: ClassesArrays | None = None
 
     @property
     def combinations(self) -> tuple[str, ...]:
@@ -55,13 +58,14 @@ class DesignState:
     @property
     def panel_thickness(self) -> np.ndarray:
         """Thickness of sized panels and edge-beam panels, (P + B,) m."""
-        return np.concatenate([self.final["thickness"], self.edge_beam_thickness])
+        return np.concatenate([self.final.thickness, self.edge_beam_thickness])
 
     @property
     def panel_utilization(self) -> np.ndarray:
         """Mean utilization of sized panels and edge-beam panels, (P + B,). Without unit."""
-        edge_beam = self.final.get("edge_beam_utilization_panel_mean", np.empty(0))
-        return np.concatenate([self.final["utilization_panel_mean"], edge_beam])
+        edge_beam = self.final.edge_beam_utilization_panel_mean
+        own = self.final.utilization_panel_mean
+        return own if edge_beam is None else np.concatenate([own, edge_beam])
 
     @property
     def cell_panel(self) -> np.ndarray:
@@ -71,18 +75,19 @@ class DesignState:
     @property
     def usable(self) -> bool:
         """Whether there are finite displacements."""
-        return bool(np.isfinite(self.final.get("displacement", np.nan)).all())
+        moved = self.final.displacement
+        return moved is not None and bool(np.isfinite(moved).all())
 
     @property
     def utilization(self) -> np.ndarray | None:
         """Utilization of each cell (C,), None where the analysis gave none. Without unit."""
-        values = self.final.get("utilization_cell")
+        values = self.final.utilization_cell
         return None if values is None else values.ravel()
 
     def displacement_at_nodes(self, combination: str) -> np.ndarray:
         """Return the displacements (N, 3) m of the result mesh's nodes."""
         column = self.combinations.index(combination)
-        return self._at_cells(self.final["displacement"][:, column])
+        return self._at_cells(self.final.displacement[:, column])
 
     def buckling_mode(self, combination: str) -> np.ndarray:
         """Return a mode (N, 3), scaled to a largest translation of 1. Without unit."""
@@ -90,7 +95,7 @@ class DesignState:
         free = np.ones(self.mesh.dof_count, dtype=bool)
         free[(3 * self.shell["supported_nodes"][:, None] + np.arange(3)).ravel()] = False
         mode = np.zeros(self.mesh.dof_count)
-        mode[free] = self.final["buckling_modes"][:, column]
+        mode[free] = self.final.buckling_modes[:, column]
         mode = self._at_cells(mode)
         largest = np.linalg.norm(mode, axis=1).max()
         return mode / largest if largest > 0 else mode
@@ -119,11 +124,12 @@ def read_state(
         if the final thicknesses are not one for each panel.
     """
     mesh, shell = read_mesh(mesh_path)
-    final = read_arrays(final_path)
+    report, final = read_iteration(report_path, final_path)
+    classes = read_typed_arrays(classes_path, ClassesArrays) if classes_path else None
     panels = int(mesh.panel.max()) + 1 - len(shell.get("fixed_thickness", ()))
-    if final["thickness"].shape != (panels,):
+    if final.thickness.shape != (panels,):
         raise InputError(
-            f"{final_path}: thickness: {final['thickness'].shape}: one for each of {panels} panels"
+            f"{final_path}: thickness: {final.thickness.shape}: one for each of {panels} panels"
         )
     cells = result_mesh(mesh, shell["vertices"], shell["facets"])
     return DesignState(
@@ -134,8 +140,8 @@ def read_state(
         shell=shell,
         folded=read_arrays(folded_path),
         final=final,
-        report=read_json(report_path),
+        report=report,
         strength=tuple(combinations.strength),
         deflection=tuple(combinations.deflection),
-        classes=read_arrays(classes_path) if classes_path else {},
+        classes=None if classes is None or classes.panel_class is None else classes,
     )

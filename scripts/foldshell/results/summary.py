@@ -1,145 +1,130 @@
 """One row a design from its result files; every design has a row, whatever became of it."""
 
 from collections.abc import Iterable, Mapping
+from dataclasses import asdict
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
-from foldshell.files.edits import DIGITS
-from foldshell.files.whole import hash_data, read_json
-from foldshell.results.history import find_least_factor
+from foldshell.files.errors import InputError
+from foldshell.files.whole import DIGITS, hash_data
+from foldshell.records.analysis import AnalysisRecord
+from foldshell.records.comparison import ComparisonRecord, read_comparison
+from foldshell.records.design_row import make_design_row
+from foldshell.records.files import read_record
+from foldshell.records.mesh_convergence import MeshConvergenceRecord
+from foldshell.records.quality import QualityRecord
+from foldshell.records.summary import SummaryRow
+from foldshell.results.history import collect_edited_panels
 
-SUMMARY_KEYS = (
-    "design",
-    "tags",
-    "pattern",
-    "surface",
-    "span_m",
-    "height_m",
-    "zigzag",
-    "strip",
-    "support",
-    "fold_mode",
-    "state",
-    "iterations",
+Record = TypeVar("Record")
+_ITERATIONS_MAX = 100
+_COPIED = (
     "volume_m3",
-    "volume_per_area_m",
     "utilization_max",
     "utilization_p99",
     "utilization_mean",
+    "utilization_panel_mean_max",
+    "governing_combination",
     "displacement_vertical_max_m",
-    "buckling_factor_min",
-    "mesh_subdivisions",
-    "mesh_error",
-    "crosscheck",
-    "settings_hash",
-    "reason",
-    "buckling_mesh_error",
-    "edge_beam_depth_m",
-    "edge_beam_thickness_m",
     "edge_beam_volume_m3",
     "edge_beam_utilization_max",
-    "edge_strain_max",
-    "planarity_max",
+    "mesh_subdivisions",
+    "settings_hash",
 )
-_EDGE_BEAM_SIZES = ("edge_beam_depth_m", "edge_beam_thickness_m")
-_ITERATIONS_MAX = 100
-_COPIED = ("volume_m3", "utilization_max", "utilization_p99", "utilization_mean")
 _OF_FOLDING = ("edge_strain_max", "planarity_max")
 """What elastic folding costs, beside the verdict: how much it stretched and warped panels."""
-_COPIED += ("edge_beam_volume_m3", "edge_beam_utilization_max")
 
 
-def hash_study(rows: Iterable[Mapping[str, Any]]) -> str:
+def hash_study(rows: Iterable[SummaryRow]) -> str:
     """Return 12 hexadecimal digits of the SHA-256 of the hashes of all designs of a summary."""
-    return hash_data({row["design"]: row.get("settings_hash") or "" for row in rows})[:DIGITS]
+    return hash_data({row.design: row.settings_hash or "" for row in rows})[:DIGITS]
 
 
-def make_summary_row(design: Mapping[str, Any], folder: str | Path) -> dict[str, Any]:
+def make_summary_row(design: Mapping[str, Any], folder: str | Path) -> SummaryRow:
     """Return the row of one design from the files under `folder` (results/<design>).
 
-    `design` holds the columns of designs.tsv. The state is the verdict of
-    the last analysis (converged, not_converged, at_minimum_thickness, unstable), or that of the
+    `design` holds its columns of designs.tsv. `state` is the verdict of the sizing, that of the
     folding where it went wrong (not_reached, crumpled), or `failed` where files are missing or
     damaged; `reason` says why. Seconds and dates never enter.
     """
     folder = Path(folder)
     problems: list[str] = []
-    quality = _read(folder / "folded/quality.json", folder, problems)
+    quality = _read(folder / "folded/quality.json", QualityRecord, folder, problems)
     analyses = _read_analyses(folder, problems)
-    last = analyses[-1] if analyses else {}
-    row: dict[str, Any] = {key: design.get(key) for key in SUMMARY_KEYS}
-    row |= {key: design.get(key) or None for key in _EDGE_BEAM_SIZES}
-    row |= {key: last.get(key) for key in _COPIED}
-    row["displacement_vertical_max_m"] = last.get("displacement_vertical_max_m")
-    row["iterations"] = len(analyses) or None
-    row["volume_per_area_m"] = _divide(last.get("volume_m3"), last.get("area_m2"))
-    row["buckling_factor_min"] = find_least_factor(last)
-    row |= {key: quality.get(key) for key in _OF_FOLDING}
-    row["state"], row["reason"] = _judge(quality, last, problems)
-    study = _read_optional(folder / "mesh_convergence.json")
-    row |= {key: study.get(key) for key in ("mesh_error", "buckling_mesh_error")}
-    row["crosscheck"] = _say_crosscheck(_read_optional(folder / "crosscheck/comparison.json"))
-    row |= {key: last.get(key) for key in ("mesh_subdivisions", "settings_hash")}
-    return row
+    last = analyses[-1] if analyses else None
+    state, reason = _judge(quality, last, problems)
+    study = _read_optional(folder / "mesh_convergence.json", MeshConvergenceRecord)
+    return SummaryRow(
+        **asdict(make_design_row(design)),
+        state=state,
+        reason=reason,
+        **_describe_last(last),
+        iterations=len(analyses) or None,
+        edited_panels=len(collect_edited_panels(analyses)) or None,
+        mesh_error=study and study.mesh_error,
+        buckling_mesh_error=study and study.buckling_mesh_error,
+        **{key: quality and getattr(quality, key) for key in _OF_FOLDING},
+        crosscheck=_find_outcome(folder / "crosscheck/comparison.json"),
+    )
 
 
-def _say_crosscheck(comparison: Mapping[str, Any]) -> str | None:
+def _describe_last(last: AnalysisRecord | None) -> dict[str, float | str | None]:
+    """Return the columns that are those of the last analysis, or made of them."""
+    if last is None:
+        return {}
+    return {
+        **{key: getattr(last, key) for key in _COPIED},
+        "volume_per_area_m": last.volume_m3 / last.area_m2 if last.area_m2 else None,
+        "buckling_factor_min": last.least_factor,
+    }
+
+
+def _find_outcome(path: Path) -> str | None:
     """Return pass or fail, `not possible` for a mechanism, None before the comparison."""
-    passed = comparison.get("pass")
-    if passed is not None:
-        return "pass" if passed else "fail"
-    return "not possible" if "reason" in comparison else None
+    try:
+        comparison: ComparisonRecord = read_comparison(path)
+    except InputError:
+        return None
+    return comparison.outcome
 
 
-def _read(path: Path, folder: Path, problems: list[str]) -> dict[str, Any]:
-    """Read a JSON file that is due; note what is wrong with it and go on."""
+def _read(path: Path, kind: type[Record], folder: Path, problems: list[str]) -> Record | None:
+    """Read a record that is due; note what is wrong with it and go on."""
     name = path.relative_to(folder)
     try:
-        data = read_json(path)
-    except FileNotFoundError:
-        problems.append(f"{name} is missing")
-        return {}
-    except (OSError, ValueError):
-        problems.append(f"{name} is damaged")
-        return {}
-    if not isinstance(data, dict):
-        problems.append(f"{name} is damaged")
-        return {}
-    return data
+        return read_record(path, kind)
+    except InputError:
+        problems.append(f"{name} is {'damaged' if path.exists() else 'missing'}")
+    return None
 
 
-def _read_optional(path: Path) -> dict[str, Any]:
+def _read_optional(path: Path, kind: type[Record]) -> Record | None:
     try:
-        data = read_json(path)
-    except (OSError, ValueError):
-        return {}
-    return data if isinstance(data, dict) else {}
+        return read_record(path, kind)
+    except InputError:
+        return None
 
 
-def _read_analyses(folder: Path, problems: list[str]) -> list[dict[str, Any]]:
+def _read_analyses(folder: Path, problems: list[str]) -> list[AnalysisRecord]:
     """Follow the iterations 00, 01, ... until a verdict ends them, so that leftovers stay out."""
-    analyses: list[dict[str, Any]] = []
+    analyses: list[AnalysisRecord] = []
     for number in range(_ITERATIONS_MAX):
-        analysis = _read(folder / f"sizing/{number:02d}/analysis.json", folder, problems)
-        if not analysis:
+        path = folder / f"sizing/{number:02d}/analysis.json"
+        analysis = _read(path, AnalysisRecord, folder, problems)
+        if analysis is None:
             break
         analyses.append(analysis)
-        if analysis.get("verdict") != "continue":
+        if not analysis.goes_on:
             break
     return analyses
 
 
 def _judge(
-    quality: Mapping[str, Any], last: Mapping[str, Any], problems: list[str]
+    quality: QualityRecord | None, last: AnalysisRecord | None, problems: list[str]
 ) -> tuple[str, str | None]:
     """Return state and reason: folding first, then missing files, then the sizing's verdict."""
-    folding = quality.get("state")
-    if folding not in (None, "ok"):
-        return str(folding), str(quality.get("reason") or "folding failed")
+    if quality and quality.state != "ok":
+        return quality.state, quality.reason or "folding failed"
     if problems:
         return "failed", "; ".join(problems)
-    return str(last.get("verdict")), last.get("reason") or None
-
-
-def _divide(value: float | None, by: float | None) -> float | None:
-    return value / by if value is not None and by else None
+    return last.verdict, last.reason or None

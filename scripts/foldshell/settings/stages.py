@@ -1,7 +1,6 @@
 """What each stage of a design depends on: plain values for Snakemake's `params`, and hashes."""
 
-from foldshell.files.edits import DIGITS
-from foldshell.files.whole import hash_data, hash_file
+from foldshell.files.whole import DIGITS, hash_data, hash_file
 from foldshell.settings.analysed import ANALYSED, LOADED
 from foldshell.settings.analysis import Analysis
 from foldshell.settings.archive import Archive

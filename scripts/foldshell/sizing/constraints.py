@@ -1,9 +1,10 @@
 """What limits the thickness of panels, linearised about an analysed state, as plain arrays."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
+
+from foldshell.records.analysis_arrays import AnalysisArrays
 
 
 @dataclass(frozen=True)
@@ -14,19 +15,9 @@ class Constraints:
     gradient: np.ndarray
     area: np.ndarray
 
-    def to_arrays(self) -> dict[str, np.ndarray]:
-        """Return the arrays that analysis.npz keeps.
 
-        Shapes and units are those of the class: values (k,), gradients (k, P) 1/m, areas (P,) m2.
-        """
-        return {
-            "constraint_value": self.value,
-            "constraint_gradient": self.gradient,
-            "panel_area": self.area,
-        }
-
-
-def read_constraints(arrays: Mapping[str, np.ndarray]) -> Constraints | None:
-    """Return the constraints that the arrays of analysis.npz hold, or None."""
-    names = ("constraint_value", "constraint_gradient", "panel_area")
-    return Constraints(*(arrays[name] for name in names)) if names[0] in arrays else None
+def read_constraints(arrays: AnalysisArrays) -> Constraints | None:
+    """Return the constraints that analysis.npz holds, or None."""
+    if arrays.constraint_value is None:
+        return None
+    return Constraints(arrays.constraint_value, arrays.constraint_gradient, arrays.panel_area)

@@ -1,11 +1,12 @@
 """From one analysed iteration to the thicknesses of the next."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
+from foldshell.records.analysis import AnalysisRecord
+from foldshell.records.analysis_arrays import AnalysisArrays, StepMemory
 from foldshell.settings.sizing import Sizing
 from foldshell.sizing.constraints import Constraints, read_constraints
 from foldshell.sizing.optimality import optimality
@@ -41,51 +42,37 @@ class NextStep:
 
     thickness: np.ndarray
     note: tuple[str, ...]
-    memory: dict[str, np.ndarray]
-
-
-def summarise_step(design: str, analysis: Mapping[str, Any], sizing: Sizing) -> dict[str, Any]:
-    """Return what the workbook of the next iteration says on its summary, by keys with units."""
-    return {
-        "design": design,
-        "iteration": analysis["iteration"] + 1,
-        "verdict": f"{analysis['verdict']}: {analysis['reason']}",
-        "volume_m3": analysis["volume_m3"],
-        "settings_hash": analysis["settings_hash"],
-        **{f"{name}_m": getattr(sizing, name) for name in ("least_thickness", "largest_thickness")},
-        **{name: getattr(sizing, name) for name in ("utilization_min", "utilization_max")},
-    }
+    memory: StepMemory
 
 
 def take_step(
-    analysis: Mapping[str, Any],
-    arrays: Mapping[str, np.ndarray],
-    memory: Mapping[str, np.ndarray],
+    analysis: AnalysisRecord,
+    arrays: AnalysisArrays,
+    memory: StepMemory | None,
     sizing: Sizing,
 ) -> NextStep:
     """Return the thickness (P,) m that follows an analysis, rounded as workbooks hold it.
 
-    `analysis` and `arrays` are the contents of analysis.json and analysis.npz, `memory` that of
-    the step before (empty at the start), `sizing` the settings.
+    `memory` is that of the step before (None at the start), `sizing` the settings.
     """
     following = propose_thickness(
         analysis,
-        arrays["thickness"],
+        arrays.thickness,
         choose_utilization(arrays, sizing.measure),
         memory,
         sizing,
         read_constraints(arrays),
     )
     new = round_thickness(following.thickness)
-    relieving = _relieves_edge_beam(arrays, sizing) & (new > arrays["thickness"])
+    relieving = _relieves_edge_beam(arrays, sizing) & (new > arrays.thickness)
     return replace(following, thickness=new, note=_add_note(following.note, relieving))
 
 
-def _relieves_edge_beam(arrays: Mapping[str, np.ndarray], sizing: Sizing) -> np.ndarray:
+def _relieves_edge_beam(arrays: AnalysisArrays, sizing: Sizing) -> np.ndarray:
     """Return which panels (P,) are within their own limit, but not the edge beam that they hold."""
-    own = arrays.get(f"utilization_{sizing.measure}")
+    own = arrays.utilization(sizing.measure)
     if own is None:
-        return np.zeros(len(arrays["thickness"]), bool)
+        return np.zeros(len(arrays.thickness), bool)
     limit = sizing.utilization_max
     return (own <= limit) & (choose_utilization(arrays, sizing.measure) > limit)
 
@@ -95,7 +82,7 @@ def _add_note(notes: tuple[str, ...], relieving: np.ndarray) -> tuple[str, ...]:
     return tuple("; ".join(filter(None, pair)) for pair in zip(notes, words, strict=True))
 
 
-def choose_utilization(arrays: Mapping[str, np.ndarray], measure: str) -> np.ndarray | None:
+def choose_utilization(arrays: AnalysisArrays, measure: str) -> np.ndarray | None:
     """Return the utilization (P,) by which a rule sizes panels, None where there is none.
 
     No rule sizes the panels of an edge beam: the panel that one hangs from takes the larger of
@@ -103,19 +90,19 @@ def choose_utilization(arrays: Mapping[str, np.ndarray], measure: str) -> np.nda
 
     Without unit.
     """
-    used = arrays.get(f"utilization_{measure}")
-    if used is None or "edge_beam_panel" not in arrays:
+    used = arrays.utilization(measure)
+    if used is None or arrays.edge_beam_panel is None:
         return used
     larger = used.copy()
-    np.maximum.at(larger, arrays["edge_beam_panel"], arrays[f"edge_beam_utilization_{measure}"])
+    np.maximum.at(larger, arrays.edge_beam_panel, arrays.edge_beam_utilization(measure))
     return larger
 
 
 def propose_thickness(
-    analysis: Mapping[str, Any],
+    analysis: AnalysisRecord,
     thickness: np.ndarray,
     utilization: np.ndarray | None,
-    memory: Mapping[str, np.ndarray],
+    memory: StepMemory | None,
     sizing: Sizing,
     constraints: Constraints | None = None,
 ) -> NextStep:
@@ -128,18 +115,17 @@ def propose_thickness(
 
     Parameters
     ----------
-    analysis : contents of analysis.json
     thickness : (P,) m as analysed
     utilization : (P,) by the chosen measure, None where the analysis gave none
-    memory : arrays of the step before; empty at the start
+    memory : of the step before; None at the start
     constraints : of the analysis, for rules in `NEED_CONSTRAINTS`
     """
     state = _restore(thickness, memory, first_step(sizing))
-    if analysis["state"] != "ok":
-        return _recover(state, memory, sizing, analysis)
-    factors = [value for value in analysis["buckling_factor"].values() if value is not None]
-    stiff = analysis["criteria"]["displacement_vertical_m"]["met"]
-    safe = min(factors, default=np.inf) >= sizing.thinning_buckling_factor_min
+    if analysis.state != "ok":
+        return _recover(state, memory, sizing, analysis.reason)
+    factor = analysis.least_factor
+    stiff = analysis.criteria.displacement_vertical_m.met
+    safe = factor is None or factor >= sizing.thinning_buckling_factor_min
     if sizing.rule in NEED_CONSTRAINTS:
         stiff = True
     state = replace(
@@ -160,36 +146,34 @@ def propose_thickness(
     )
 
 
-def _restore(thickness, memory: Mapping[str, np.ndarray], step: float) -> SizingState:
-    if not memory:
+def _restore(thickness, memory: StepMemory | None, step: float) -> SizingState:
+    if memory is None:
         return start_state(thickness, step)
     unknown = np.full(len(thickness), np.nan)
-    return SizingState(
-        thickness, unknown, memory["step"], memory["direction"], memory["sign_changes"]
-    )
+    return SizingState(thickness, unknown, memory.step, memory.direction, memory.sign_changes)
 
 
-def _recover(state, memory, sizing: Sizing, analysis: Mapping[str, Any]) -> NextStep:
-    failures = int(memory["failures"]) + 1 if memory else 1
-    stable = memory["stable"] if memory and memory["stable"].size else None
+def _recover(state, memory: StepMemory | None, sizing: Sizing, reason: str) -> NextStep:
+    failures = int(memory.failures) + 1 if memory else 1
+    stable = memory.stable if memory and memory.stable.size else None
     base = state.thickness if stable is None else stable
     steps = 1 if stable is None else failures
     following = thicken_all(replace(state, thickness=base), sizing, (1 + sizing.step) ** steps - 1)
     if sizing.rule in NEED_CONSTRAINTS:
         following = replace(following, step=following.step / 2)
     kept = np.empty(0) if stable is None else stable
-    note = (analysis["reason"],) * len(base)
+    note = (reason,) * len(base)
     return NextStep(following.thickness, note, _memory(following, kept, failures))
 
 
-def _memory(state: SizingState, stable: np.ndarray, failures: int) -> dict[str, np.ndarray]:
-    return {
-        "step": state.step,
-        "direction": state.direction,
-        "sign_changes": state.sign_changes,
-        "stable": stable,
-        "failures": np.asarray(failures),
-    }
+def _memory(state: SizingState, stable: np.ndarray, failures: int) -> StepMemory:
+    return StepMemory(
+        step=state.step,
+        direction=state.direction,
+        sign_changes=state.sign_changes,
+        stable=stable,
+        failures=np.asarray(failures),
+    )
 
 
 def _explain(stiff: bool) -> str:

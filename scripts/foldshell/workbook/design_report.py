@@ -1,16 +1,21 @@
 """What the design workbook shows of a sized design."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from typing import Any
 
-import numpy as np
-
+from foldshell.records.analysis import AnalysisRecord
+from foldshell.records.analysis_arrays import ClassesArrays
+from foldshell.records.classes import ClassesRecord
+from foldshell.records.design_row import DesignRow, make_design_row
+from foldshell.records.entry import entries
 from foldshell.results.gather import Iterations
-from foldshell.results.history import EDGE_BEAM_KEYS, find_least_factor
+from foldshell.results.history import collect_edited_panels
 from foldshell.settings.design import Design
 from foldshell.settings.stage import StageSettings
 from foldshell.workbook.design import DesignReport
 from foldshell.workbook.panels import make_panel_grid
+from foldshell.workbook.styles import Line, make_lines
 
 SOURCES = (
     "Tsiamis, Oliva, Calvano (2018) Algorithmic Design and Analysis of Architectural Origami, "
@@ -22,18 +27,21 @@ SOURCES = (
 HEADLINES = (
     "volume_m3",
     "area_m2",
-    "utilization_max",
-    "utilization_p99",
-    "utilization_mean",
     "utilization_panel_mean_max",
+    "utilization_p99",
+    "utilization_max",
+    "utilization_mean",
     "panels_above_one",
     "panels_at_bound",
     "displacement_vertical_max_m",
     "reaction_imbalance",
     "dofs",
     "mesh_subdivisions",
+    "edge_beam_volume_m3",
+    "edge_beam_utilization_max",
+    "edge_beam_utilization_panel_mean_max",
 )
-EDGE_BEAM = ("edge_beam_volume_m3", *EDGE_BEAM_KEYS)
+GROUPED = ("volume_m3", "utilization_panel_mean_max", "displacement_vertical_max_m")
 
 
 def make_design_report(
@@ -41,58 +49,74 @@ def make_design_report(
     design: Design,
     settings: StageSettings,
     versions: Mapping[str, str],
-    grouped: Mapping[str, Any],
-    panel_class: np.ndarray,
+    grouped: ClassesRecord,
+    grouped_arrays: ClassesArrays,
 ) -> DesignReport:
-    """Put the last analysis, the panels, the history and the settings together.
-
-    `grouped` are the contents of classes.json, `panel_class` (P,) the class of each panel.
-
-    Classes are numbers.
-    """
-    last, row = iterations.analyses[-1], design.to_row()
-    verdict = {
-        **{name: value for name, value in row.items() if value or "edge_beam" not in name},
-        "verdict": last["verdict"],
-        "reason": last["reason"],
-        "iterations": len(iterations.analyses),
-        **{name: last.get(name) for name in HEADLINES},
-        **{name: last[name] for name in EDGE_BEAM if name in last},
-        "buckling_factor_min": find_least_factor(last),
-        **_summarise_classes(grouped),
-        "settings_hash": last["settings_hash"],
-    }
+    """Put the last analysis, the panels, the history and the settings together."""
+    last, sizing = iterations.analyses[-1], settings.sizing
     return DesignReport(
         title=f"Design {design.name}",
-        verdict=verdict,
-        criteria=last["criteria"],
+        verdict=[
+            *_describe_design(design),
+            *make_lines(last, ("verdict", "reason")),
+            Line("iterations", len(iterations.analyses)),
+            *describe_edits(iterations.analyses),
+            *make_lines(last, HEADLINES),
+            Line("least buckling factor", last.least_factor),
+            Line("its combination", last.least_factor_combination),
+            *_summarise_classes(grouped),
+            Line("settings hash", last.settings_hash),
+        ],
+        criteria=last.criteria,
         grid=make_panel_grid(design.zigzag, design.strip),
         thickness=iterations.thickness,
         utilization=iterations.utilization,
-        thickness_class=panel_class,
+        thickness_class=grouped_arrays.panel_class,
         history=iterations.history,
-        loads={f"{name}_kn_m2" if name in ("superimposed_dead", "live", "wind") else name: value
-               for name, value in vars(settings.loads).items()},
+        loads=[_describe_load(name, value) for name, value in vars(settings.loads).items()],
         combinations=settings.combinations,
         settings=settings.to_plain(),
         versions=versions,
         sources=SOURCES,
-        utilization_max=settings.sizing.utilization_max,
-    )  # fmt: skip
+        utilization_max=sizing.utilization_max,
+        measure=sizing.measure,
+    )
 
 
-def _summarise_classes(grouped: Mapping[str, Any]) -> dict[str, Any]:
+def _describe_design(design: Design) -> list[Line]:
+    row = make_design_row(design.to_row())
+    beam = ("edge_beam_depth_m", "edge_beam_thickness_m")
+    keys = [key for key in entries(DesignRow) if key not in beam or getattr(row, key)]
+    return make_lines(row, keys)
+
+
+def _describe_load(name: str, value: Any) -> Line:
+    pressure = name in ("superimposed_dead", "live", "wind")
+    return Line(name.replace("_", " "), value, "kN/m2" if pressure else "")
+
+
+def describe_edits(analyses: Sequence[AnalysisRecord]) -> list[Line]:
+    """Say that a person changed panels, and in which iterations; nothing where nobody has."""
+    panels = collect_edited_panels(analyses)
+    numbers = ", ".join(f"{one.iteration:02d}" for one in analyses if one.edited_panels)
+    if not panels:
+        return []
+    return [
+        Line("panels changed by a person", len(panels)),
+        Line("in the workbooks of iterations", numbers),
+    ]
+
+
+def _summarise_classes(grouped: ClassesRecord) -> list[Line]:
     """Return the lines on thickness classes: each with its thickness, and the grouped design."""
-    classes = {
-        f"class_{item['class']}_thickness_m": item["thickness_m"] for item in grouped["classes"]
-    }
-    return {
-        **classes,
-        "grouped_verdict": grouped["verdict"],
-        "grouped_reason": grouped["reason"],
-        "grouped_volume_m3": grouped["volume_m3"],
-        "grouped_added_volume_relative": grouped["added_volume_relative"],
-        "grouped_utilization_panel_mean_max": grouped.get("utilization_panel_mean_max"),
-        "grouped_displacement_vertical_max_m": grouped.get("displacement_vertical_max_m"),
-        "grouped_buckling_factor_min": find_least_factor(grouped),
-    }
+    classes = [Line(f"class {one.number}, thickness", one.thickness_m, "m")
+               for one in grouped.classes]  # fmt: skip
+    numbers = make_lines(grouped, GROUPED)
+    return [
+        *classes,
+        Line("grouped: verdict", grouped.verdict),
+        Line("grouped: reason", grouped.reason),
+        *(replace(line, words=f"grouped: {line.words}") for line in numbers),
+        Line("grouped: added volume, relative", grouped.added_volume_relative),
+        Line("grouped: least buckling factor", grouped.least_factor),
+    ]

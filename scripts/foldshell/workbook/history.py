@@ -4,9 +4,17 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from foldshell.results.history import choose_keys
-from foldshell.workbook.styles import Styles, add_sheet, create_workbook, mark_above, write_pairs
-from foldshell.workbook.tables import Row, make_columns, write_csv, write_table
+from foldshell.records.analysis import DECIDES
+from foldshell.records.history import HistoryRow
+from foldshell.workbook.styles import (
+    Line,
+    Styles,
+    add_sheet,
+    create_workbook,
+    mark_above,
+    write_lines,
+)
+from foldshell.workbook.tables import write_records
 
 _CHARTS: tuple[tuple[str, str, tuple[str, ...]], ...] = (
     ("Volume", "m3", ("volume_m3",)),
@@ -31,42 +39,41 @@ _LIMIT_LINE = {
 }
 
 
-def write_history_csv(path: str | Path, rows: Sequence[Row]) -> None:
-    """Write `history.csv`."""
-    write_csv(path, choose_keys(rows), rows)
-
-
 def write_history(
     path: str | Path,
-    rows: Sequence[Row],
-    summary: Mapping[str, Any],
+    rows: Sequence[HistoryRow],
+    summary: Sequence[Line],
     utilization_max: float = 1.0,
+    measure: str = "panel_mean",
 ) -> None:
-    """Write `history.xlsx`: sheets summary, history (one row per iteration) and charts."""
+    """Write `history.xlsx`: sheets summary, history (one row per iteration) and charts.
+
+    `utilization_max` is the limit of the utilization that `measure` names.
+    """
     with create_workbook(path, "History of the sizing loop") as (book, styles):
         sheet = add_sheet(book, "summary", landscape=False)
         sheet.set_column(0, 0, 34)
         sheet.set_column(1, 1, 44)
         sheet.set_column(2, 2, 10)
         sheet.write_string(0, 0, "History of the sizing loop", styles["title"])
-        write_pairs(sheet, styles, 2, summary)
-        add_history_sheets(book, styles, rows, utilization_max)
+        write_lines(sheet, styles, 2, summary)
+        add_history_sheets(book, styles, rows, utilization_max, measure)
 
 
 def add_history_sheets(
-    book: Any, styles: Styles, rows: Sequence[Row], utilization_max: float
+    book: Any, styles: Styles, rows: Sequence[HistoryRow], utilization_max: float, measure: str
 ) -> None:
-    """Add the sheets `history` and `charts` to a workbook."""
+    """Add the sheets `history` and `charts`; what decides is marked where it is above its limit."""
     sheet = add_sheet(book, "history")
-    keys = choose_keys(rows)
-    first = write_table(sheet, styles, 0, make_columns(keys), rows, upright=True)
-    last = first + max(len(rows), 1) - 1
-    for column in (number for number, key in enumerate(keys) if "utilization" in key):
+    keys = [about.key for about in write_records(sheet, styles, HistoryRow, rows)]
+    first, last = 2, max(len(rows), 1) + 1
+    judged = DECIDES[measure], f"edge_beam_{DECIDES[measure]}"
+    for column in (number for number, key in enumerate(keys) if key in judged):
         mark_above(sheet, styles, (first, column, last, column), utilization_max)
     charts = add_sheet(book, "charts")
     charts.fit_to_pages(1, 1)
     for index, (title, unit, wanted) in enumerate(_CHARTS):
-        drawn = [key for key in wanted if any(row.get(key) is not None for row in rows)]
+        drawn = [key for key in wanted if any(getattr(row, key) is not None for row in rows)]
         if drawn:
             columns = {key: keys.index(key) for key in drawn}
             chart = _make_chart(book, title, unit, columns, (first, last))

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from datetime import UTC, datetime
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from foldshell.files.whole import atomic_path
+from foldshell.records.entry import COUNT, entries
 
 if TYPE_CHECKING:
     import xlsxwriter
@@ -78,18 +80,9 @@ _FORMATS: dict[str, dict[str, Any]] = {
     "plain": {"bold": True, "indent": 1, "align": "left"},
 }
 _CONDITIONAL = {"above": {"font_color": "#9F1239", "bg_color": "#FFE4E6"}}
-_UNIT_SUFFIXES = {
-    "_per_area_m": "m3/m2",
-    "_kn_m3": "kN/m3",
-    "_kn_m2": "kN/m2",
-    "_kpa": "kPa",
-    "_m3": "m3",
-    "_m2": "m2",
-    "_mm": "mm",
-    "_m": "m",
-    "_kn": "kN",
-}
 GOOD_VERDICTS = ("converged", "at_minimum_thickness", "pass", "yes", "ok")
+JUDGED = ("state", "verdict", "crosscheck")
+"""Keys whose values are good or bad endings."""
 _OPEN_VERDICTS = ("continue", "not analysed yet", "")
 
 
@@ -161,15 +154,6 @@ def add_sheet(book: xlsxwriter.Workbook, name: str, landscape: bool = True) -> W
     return sheet
 
 
-def split_unit(key: str) -> tuple[str, str]:
-    """Return the words and the unit of a key: `volume_m3` gives (`volume`, `m3`)."""
-    for suffix, unit in _UNIT_SUFFIXES.items():
-        if key.endswith(suffix):
-            name = key.removesuffix("_m") if suffix == "_per_area_m" else key.removesuffix(suffix)
-            return name.replace("_", " "), unit
-    return key.replace("_", " "), "-"
-
-
 def write_value(sheet: Worksheet, row: int, column: int, value: Any, style: Format) -> None:
     """Write a number, truth value or text; None, or NaN for no result, leaves an empty cell."""
     if value is None or value != value:
@@ -182,20 +166,40 @@ def write_value(sheet: Worksheet, row: int, column: int, value: Any, style: Form
         sheet.write_string(row, column, str(value), style)
 
 
-def write_pairs(sheet: Worksheet, styles: Styles, row: int, pairs: Mapping[str, Any]) -> int:
-    """Write label, value and unit in three columns, from `row` on; return the next free row.
+@dataclass(frozen=True)
+class Line:
+    """A labelled value of a summary sheet; one that is `judged` is coloured by what it says."""
 
-    A value with the key `verdict` or `state` is coloured by what it says.
-    """
-    for key, value in pairs.items():
-        label, unit = split_unit(key)
-        number = isinstance(value, int | float) and not isinstance(value, bool)
-        style = styles[f"{choose_style(value)}_left"]
-        if key in ("verdict", "state", "crosscheck"):
-            style = styles.choose_verdict(str(value or ""))
-        sheet.write_string(row, 0, label, styles["label"])
-        write_value(sheet, row, 1, value, style)
-        sheet.write_string(row, 2, unit if number and unit != "-" else "", styles["unit_text"])
+    words: str
+    value: Any
+    unit: str = ""
+    judged: bool = False
+
+
+def make_lines(record: Any, keys: Iterable[str] | None = None) -> list[Line]:
+    """Return lines of a record, of all its fields or of the named ones, by the words and units
+    that they have there; those of fields that are left out are left out."""
+    known = entries(type(record))
+    lines = []
+    for key in known if keys is None else keys:
+        about = known[key]
+        value = getattr(record, about.attribute)
+        if value is not None or not about.left_out:
+            unit = about.unit if about.unit not in (COUNT, "-") else ""
+            lines.append(Line(about.words, value, unit, key in JUDGED))
+    return lines
+
+
+def write_lines(sheet: Worksheet, styles: Styles, row: int, lines: Iterable[Line]) -> int:
+    """Write label, value and unit in three columns, from `row` on; return the next free row."""
+    for line in lines:
+        number = isinstance(line.value, int | float) and not isinstance(line.value, bool)
+        style = styles[f"{choose_style(line.value)}_left"]
+        if line.judged:
+            style = styles.choose_verdict(str(line.value or ""))
+        sheet.write_string(row, 0, line.words, styles["label"])
+        write_value(sheet, row, 1, line.value, style)
+        sheet.write_string(row, 2, line.unit if number else "", styles["unit_text"])
         row += 1
     return row
 

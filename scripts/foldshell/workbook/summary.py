@@ -5,34 +5,39 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from foldshell.records.analysis import DECIDES
+from foldshell.records.summary import SummaryRow
 from foldshell.workbook.design import add_notes
 from foldshell.workbook.styles import add_sheet, create_workbook, mark_above
-from foldshell.workbook.tables import Row, make_columns, write_table
+from foldshell.workbook.tables import Column, write_records, write_table
 
 _SOURCES = (
     "Tsiamis, Oliva, Calvano, Algorithmic Design and Analysis of Architectural Origami, "
     "Nexus Network Journal 20 (2018) 59-73, doi 10.1007/s00004-017-0361-9",
 )
 
+_ENDINGS = [Column("state", "", "text", 24.0), Column("designs", "-", "integer", 10.0)]
+
 
 def write_summary(
     path: str | Path,
-    keys: Sequence[str],
-    rows: Sequence[Row],
+    rows: Sequence[SummaryRow],
     settings: Mapping[str, Any],
     utilization_max: float = 1.0,
+    measure: str = "panel_mean",
 ) -> None:
-    """Write the sheets summary (the rows), overview (endings and their number) and notes."""
+    """Write the sheets summary (the rows), overview (endings and their number) and notes.
+
+    What the loop holds against `utilization_max` by its measure is marked where it is above.
+    """
     with create_workbook(path, "Summary of the study") as (book, styles):
         sheet = add_sheet(book, "summary")
-        first = write_table(sheet, styles, 0, make_columns(keys), rows, upright=True)
-        last = first + max(len(rows), 1) - 1
+        keys = [about.key for about in write_records(sheet, styles, SummaryRow, rows)]
+        last = max(len(rows), 1) + 1
         sheet.autofilter(1, 0, last, len(keys) - 1)
-        for key in ("utilization_max", "utilization_p99"):
-            column = list(keys).index(key)
-            mark_above(sheet, styles, (first, column, last, column), utilization_max)
+        column = keys.index(DECIDES[measure])
+        mark_above(sheet, styles, (2, column, last, column), utilization_max)
         overview = add_sheet(book, "overview", landscape=False)
-        counts = Counter(str(row.get("state")) for row in rows)
-        endings = [{"state": name, "designs": count} for name, count in sorted(counts.items())]
-        write_table(overview, styles, 0, make_columns(("state", "designs")), endings)
+        counts = Counter(row.state for row in rows)
+        write_table(overview, styles, 0, _ENDINGS, sorted(counts.items()))
         add_notes(book, styles, settings, {}, _SOURCES)

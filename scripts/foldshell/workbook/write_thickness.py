@@ -1,6 +1,6 @@
 """Write the workbook that one analysis of the sizing loop reads."""
 
-from collections.abc import Mapping
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -9,12 +9,13 @@ import numpy as np
 from foldshell.sizing.rounding import round_thickness
 from foldshell.workbook.panels import FloatArray, ThicknessTable
 from foldshell.workbook.styles import (
+    Line,
     Styles,
     add_sheet,
     create_workbook,
     mark_above,
     write_header,
-    write_pairs,
+    write_lines,
     write_value,
 )
 
@@ -39,17 +40,16 @@ _HELP = (
 def write_thickness(
     path: str | Path,
     table: ThicknessTable,
-    summary: Mapping[str, Any],
+    summary: Sequence[Line],
     least: float,
     largest: float,
     utilization_max: float = 1.0,
 ) -> None:
     """Write sheet `summary` (label, value, unit) and sheet `thickness` (one row per panel).
 
-    `summary` maps keys with unit suffixes (`volume_m3`) to plain values; least and largest (m)
-    bound the input cells. Thickness is rounded to 12 digits, so that reading gives back exactly
-    `round_thickness(table.thickness)`. Raises `ValueError` for values that are not finite or
-    outside of the bounds.
+    Least and largest (m) bound the input cells. Thickness is rounded to 12 digits, so that reading
+    gives back exactly `round_thickness(table.thickness)`. Raises `ValueError` for values that are
+    not finite or outside of the bounds.
     """
     thickness = round_thickness(table.thickness)
     inside = np.isfinite(thickness) & (thickness >= least) & (thickness <= largest)
@@ -61,7 +61,7 @@ def write_thickness(
         sheet.set_column(1, 1, 44)
         sheet.set_column(2, 2, 10)
         sheet.write_string(0, 0, "Thickness of the panels", styles["title"])
-        row = write_pairs(sheet, styles, 2, summary)
+        row = write_lines(sheet, styles, 2, summary)
         sheet.merge_range(row + 1, 0, row + 3, 2, _HELP, styles["wrap"])
         _write_panels(add_sheet(book, "thickness"), styles, table, thickness)
         _mark_input(book, styles, thickness.size, least, largest, utilization_max)

@@ -136,7 +136,7 @@ def test_groups_differ_in_one_column_only():
         make_design_result(height_m=h, support=s) for h in (28.0, 6.0, 10.0) for s in ("all",)
     ]
     designs += [make_design_result(height_m=6.0, support="strip", surface="arch")]
-    pairs = [(a.row["height_m"], b.row["height_m"]) for a, b in
+    pairs = [(a.row.height_m, b.row.height_m) for a, b in
              pair_neighbours(designs, "height_m")]  # fmt: skip
     assert pairs == [(6.0, 10.0), (10.0, 28.0)]
     assert group_by_others(designs, "support") == []

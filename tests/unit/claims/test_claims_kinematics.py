@@ -7,6 +7,15 @@ import pytest
 from claims_case import make_design_result
 from foldshell.claims import kinematics
 from foldshell.claims.design_result import Comparer
+from foldshell.records.kinematics import (
+    ForceRatioTrial,
+    KinematicsRecord,
+    MechanismCount,
+    RatioRow,
+    SheetRecord,
+    SoftMode,
+)
+from record_cases import make_quality
 
 COMPARER = Comparer()
 
@@ -16,26 +25,26 @@ QUADS, TRIANGLES = (True, False), (True, True)
 
 
 def _fold_all(engine, quads=QUADS, triangles=TRIANGLES):
+    zero = dict.fromkeys(("attraction", "panel", "rms_over_span", "crease_strain_max", "shear_max",
+                          "planarity_max"), 0.0)  # fmt: skip
     return [
-        {"surface": "hypar", "engine": engine, "panels": kind, "reached": one, "folded": False,
-         "iterations": 7}
+        ForceRatioTrial(surface="hypar", engine=engine, panels=kind, reached=one, folded=False,
+                        iterations=7, flipped_folds=0, self_intersections=0, **zero)
         for kind, values in (("quadrilaterals", quads), ("triangles", triangles)) for one in values
     ]  # fmt: skip
 
 
 def _table(ratio=-1.0, shapes=("twist", "saddle"), dome=0.5, stresses=(20, 0), strengths=()):
-    modes = [{"panel_over_crease": 1.0, "stiffness": k + 1.0, "shape": shape}
-             for k, shape in enumerate((*shapes, "other"))]  # fmt: skip
+    modes = tuple(SoftMode(panel_over_crease=1.0, stiffness=k + 1.0, shape=shape, agreement=1.0)
+                  for k, shape in enumerate((*shapes, "other")))  # fmt: skip
     residual = {"twist": 0.0, "saddle": 0.0, "dome": dome, "arch": dome}
-    return {
-        "ratios": [{"fold_angle_deg": 50.0, "in_plane": ratio, "in_plane_exact": ratio + 1e-9}],
-        "sheets": [{
-            "zigzag": 7, "strip": 8, "modes": modes, "isometry_residual": residual,
-            "rigid_panels": {"self_stresses": stresses[0]},
-            "bending_panels": {"self_stresses": stresses[1]},
-        }],
-        "force_ratios": [*strengths],
-    }  # fmt: skip
+    rigid, bending = (MechanismCount(freedoms=1, self_stresses=count) for count in stresses)
+    ratios = RatioRow(fold_angle_deg=50.0, in_plane=ratio, in_plane_exact=ratio + 1e-9,
+                      bending=1.0, bending_exact=1.0, bending_residual=0.0)  # fmt: skip
+    sheet = SheetRecord(zigzag=7, strip=8, modes=modes, isometry_residual=residual,
+                        rigid_panels=rigid, bending_panels=bending)  # fmt: skip
+    return KinematicsRecord(sector_angle_deg=60.0, ratios=(ratios,), sheets=(sheet,),
+                            force_ratios=tuple(strengths), geometric_rules=())  # fmt: skip
 
 
 @pytest.mark.parametrize(
@@ -92,8 +101,10 @@ def test_engines_that_disagree_are_told_apart():
 
 def _folded(mode, **quality):
     exact = {"planarity_max": 1e-15, "edge_strain_max": 1e-14, "angle_defect_max_rad": 1e-15,
-             "flat_foldability_max_rad": 1e-15}  # fmt: skip
-    return replace(make_design_result(fold_mode=mode), quality=exact | quality)
+             "flat_foldability_max_rad": 1e-15} | quality  # fmt: skip
+    one = make_design_result({"flat_foldability_max_rad": exact.pop("flat_foldability_max_rad")},
+                             fold_mode=mode)  # fmt: skip
+    return replace(one, quality=make_quality(**exact))
 
 
 def test_foldability_is_judged_by_the_mode_of_the_paper():

@@ -1,10 +1,13 @@
 """C10 to C13 on designs made by hand."""
 
+from dataclasses import replace
+
 import pytest
 
 from claims_case import make_design_result
 from foldshell.claims import limits
 from foldshell.claims.design_result import Comparer
+from foldshell.records.measures import FlatEqualRecord
 
 COMPARER = Comparer()
 
@@ -107,13 +110,13 @@ def test_deflection_along_free_edges(edge, inner, verdict):
 
 
 def _flat(displacement, first=None):
-    return {
-        "flat": "flat-sheet", "thickness_m": 0.05, "volume_m3": 80.0, "area_m2": 1600.0,
-        "sides_m": [40.0, 40.0], "state": "ok" if displacement else "unstable",
-        "displacement_first_order_m": first or displacement,
-        "errors": {"displacement": [0.01, 0.0]},
-        "measures": {"displacement": displacement, "utilization_panel_mean_max": 3.0},
-    }  # fmt: skip
+    values = make_design_result().values
+    return FlatEqualRecord(
+        flat="flat-sheet", thickness_m=0.05, volume_m3=80.0, area_m2=1600.0, sides_m=(40.0, 40.0),
+        state="ok" if displacement else "unstable",
+        displacement_first_order_m=first or displacement, errors={"displacement": (0.01, 0.0)},
+        measures=replace(values, displacement=displacement, utilization_panel_mean_max=3.0),
+    )  # fmt: skip
 
 
 @pytest.mark.parametrize(

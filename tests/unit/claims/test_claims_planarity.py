@@ -43,11 +43,11 @@ def test_designs_are_pooled_and_single():
         for k in range(3)
     ]
     found = describe_planarity([*falls, make_design_result(pattern="smooth")])
-    numbers = found["numbers"]
-    assert found["verdict"] == "holds" and numbers["spearman_median"] == pytest.approx(-1)
-    assert numbers["pooled"]["spearman"] > 0.5 and numbers["pooled"]["panels"] == 60
-    assert numbers["designs_positive"] == 0 and len(found["designs"]) == 3
+    numbers = found.numbers
+    assert found.verdict == "holds" and numbers.spearman_median == pytest.approx(-1)
+    assert numbers.pooled.spearman > 0.5 and numbers.pooled.panels == 60
+    assert numbers.designs_positive == 0 and len(found.designs) == 3
 
 
 def test_no_design_at_all():
-    assert describe_planarity([])["verdict"] == "cannot_be_told"
+    assert describe_planarity([]).verdict == "cannot_be_told"

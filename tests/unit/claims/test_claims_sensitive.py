@@ -30,8 +30,8 @@ VARIANTS = {
 
 def test_changes_of_the_claim_and_of_its_parts_are_named():
     found = judge_variants("C6", VARIANTS, COMPARER)
-    assert found["verdicts"]["base"]["verdict"] == "holds"
-    assert found["changes"] == {"element_max": {"the claim": "mixed", "arch above hypar": "fails"}}
+    assert found.verdicts["base"].verdict == "holds"
+    assert found.changes == {"element_max": {"the claim": "mixed", "arch above hypar": "fails"}}
     words = describe_dependence(judge_surfaces(VARIANTS["base"], COMPARER), found, None, VARIANTS)
     assert "On the 3 designs run with other settings: holds" in words
     assert "for start_60; with element_max the claim: mixed, arch above hypar: fails." in words
@@ -55,13 +55,13 @@ def test_equal_thickness_leaves_volumes_out():
         make_design_result({"volume_per_area": v, "displacement": w}, support=s)
         for s, v, w in (("strip", 0.15, 0.09), ("zigzag", 0.15, 0.05))
     ]
-    parts = judge_equal_thickness("C7", equal, COMPARER)["parts"]
+    parts = judge_equal_thickness("C7", equal, COMPARER).parts
     assert parts["more deflection"] == "holds" and "more volume" not in parts
 
 
 def test_table_of_runs_has_the_volume_over_that_of_the_base():
-    rows = {(row["design"], row["variant"]): row for row in list_runs(VARIANTS)}
+    rows = {(row.design, row.variant): row for row in list_runs(VARIANTS)}
     assert len(rows) == 9
     name = VARIANTS["base"][0].name
-    assert rows[name, "element_max"]["volume_over_base"] == 2.0
-    assert rows[name, "base"]["volume_over_base"] == 1.0
+    assert rows[name, "element_max"].volume_over_base == 2.0
+    assert rows[name, "base"].volume_over_base == 1.0

@@ -9,8 +9,16 @@ from foldshell.claims.limits import judge_folds
 from foldshell.claims.statement import Claim, describe_claim
 from foldshell.claims.structure import judge_supports
 from foldshell.claims.words import join_names, write_findings, write_section
+from foldshell.records.claims import Dependence
+from foldshell.records.measures import FlatEqualRecord
+from record_cases import make_quality
 
 COMPARER = Comparer()
+
+
+def _with_quality(one, flat_foldability_max_rad, **measures):
+    values = replace(one.values, flat_foldability_max_rad=flat_foldability_max_rad)
+    return replace(one, quality=make_quality(**measures), values=values)
 
 
 def test_names_share_what_they_have_in_common():
@@ -30,7 +38,7 @@ def test_a_row_holds_the_values_in_the_order_of_its_name():
         ),
     ]
     entry = describe_claim(judge_supports(designs, COMPARER))
-    (table,) = write_findings(entry["numbers"]["findings"])
+    (table,) = write_findings(entry.numbers.findings)
     row = table.splitlines()[2]
     assert "zigzag\\|strip" in row
     assert "0.5 / 0.3 ± 0.029: holds" in row and "50 / 80 ± 4.8: holds" in row
@@ -42,10 +50,10 @@ def test_rows_share_a_table_only_where_columns_mean_the_same():
     exact = {"planarity_max": 0.0, "edge_strain_max": 0.0, "angle_defect_max_rad": 0.0,
              "flat_foldability_max_rad": 0.0}  # fmt: skip
     designs = [
-        replace(make_design_result(strip=16 + k), quality=exact | {worst: 0.02})
+        _with_quality(make_design_result(strip=16 + k), **exact | {worst: 0.02})
         for k, worst in enumerate(("planarity_max", "edge_strain_max", "planarity_max"))
     ]
-    tables = write_findings(describe_claim(judge_foldability(designs))["numbers"]["findings"])
+    tables = write_findings(describe_claim(judge_foldability(designs)).numbers.findings)
     assert [len(table.splitlines()) for table in tables] == [4, 3]
     assert "rigid foldability: planarity max [-], limit 0.001" in tables[0]
     assert "rigid foldability: edge strain max [-], limit 0.001" in tables[1]
@@ -53,18 +61,18 @@ def test_rows_share_a_table_only_where_columns_mean_the_same():
 
 
 def test_a_section_says_what_cannot_be_told():
-    entry = describe_claim(Claim("C6", [])) | {"sensitivity": {"words": "Nothing."}}
-    section = write_section(entry)
+    says = Dependence(words="Nothing.", runs=None, equal_thickness=None)
+    section = write_section(replace(describe_claim(Claim("C6", [])), sensitivity=says))
     assert section.startswith("## C6: cannot be told") and "Sensitivity: Nothing." in section
 
 
 def test_flat_sheets_have_a_row_each():
     design = make_design_result()
-    flat = {
-        "flat": "flat-sheet", "state": "unstable", "thickness_m": 0.05, "volume_m3": 80.0,
-        "area_m2": 1600.0, "sides_m": [40.0, 41.5], "displacement_first_order_m": 2.0,
-        "errors": {}, "measures": {"displacement": None, "utilization_panel_mean_max": None},
-    }  # fmt: skip
+    measures = replace(design.values, displacement=None, utilization_panel_mean_max=None)
+    flat = FlatEqualRecord(
+        flat="flat-sheet", state="unstable", thickness_m=0.05, volume_m3=80.0, area_m2=1600.0,
+        sides_m=(40.0, 41.5), displacement_first_order_m=2.0, errors={}, measures=measures,
+    )  # fmt: skip
     claim = judge_folds([design], {design.name: flat}, COMPARER)
     section = write_section(describe_claim(claim))
     assert "| flat-sheet | 40 x 41.5 | 50 | 80 | unstable | 2 | - |" in section

@@ -7,12 +7,20 @@ from foldshell.claims.measures import (
     Layout,
     measure_depth,
     measure_edge_displacement,
-    measure_fields,
-    measure_report,
+    measure_panel_areas,
+    measure_state,
+    measure_utilization,
     weighted_variation,
 )
+from foldshell.records.analysis_arrays import AnalysisArrays
+from foldshell.settings.loads import Combinations
 from foldshell.shell.mesh_files import mesh_folded_sheet
+from record_cases import make_analysis
 from sizing_case import PANELS, STRIP, ZIGZAG, corrugated_sheet
+
+
+def make_arrays(**arrays):
+    return AnalysisArrays(thickness=np.full(PANELS, 0.1), **arrays)
 
 
 @pytest.mark.parametrize(
@@ -50,41 +58,49 @@ def test_panels_of_edge_beams_do_not_count():
     mesh = mesh_folded_sheet(corrugated_sheet(), "strip", 2, edge_beam=beam)
     bare = mesh_folded_sheet(corrugated_sheet(), "strip", 2)
     layout = Layout(ZIGZAG, STRIP, "strip")
-    fields = {"utilization_panel_mean": np.linspace(0.1, 1.2, PANELS)}
-    with_beam, without = (measure_fields(one, layout, fields, "panel_mean") for one in (mesh, bare))
+    arrays = make_arrays(utilization_panel_mean=np.linspace(0.1, 1.2, PANELS))
+    with_beam, without = (
+        measure_utilization(one, layout, arrays, "panel_mean") for one in (mesh, bare)
+    )
     assert with_beam == pytest.approx(without)
+    areas = [measure_panel_areas(one, layout) for one in (mesh, bare)]
+    assert areas[0] == pytest.approx(areas[1])
     moved = np.ones((len(mesh["nodes"]), 3, 1))
     assert measure_edge_displacement(mesh, layout, moved, 1)["displacement_edge"] == -1.0
 
 
 def test_panels_above_one_by_the_measure_of_the_limits():
     mesh = mesh_folded_sheet(corrugated_sheet(), "zigzag", 1)
-    fields = {
-        "utilization_panel_mean": np.full(PANELS, 0.5),
-        "utilization_element_max": np.where(np.arange(PANELS) < 2, 1.5, 0.9),
-    }
+    arrays = make_arrays(
+        utilization_panel_mean=np.full(PANELS, 0.5),
+        utilization_element_max=np.where(np.arange(PANELS) < 2, 1.5, 0.9),
+    )
     layout = Layout(ZIGZAG, STRIP, "zigzag")
-    found = measure_fields(mesh, layout, fields, "element_max")
+    found = measure_utilization(mesh, layout, arrays, "element_max")
     assert (found["above_one"], found["above_one_at_free_edge"]) == (2, 1)
     assert found["utilization_variation"] == pytest.approx(0, abs=1e-12)
-    assert measure_fields(mesh, layout, fields, "panel_mean")["above_one"] == 0
+    assert measure_utilization(mesh, layout, arrays, "panel_mean")["above_one"] == 0
 
 
 def test_no_answer_gives_no_numbers():
     mesh = mesh_folded_sheet(corrugated_sheet(), "all", 1)
-    found = measure_fields(mesh, Layout(ZIGZAG, STRIP, "all"), {}, "panel_mean")
-    assert found["utilization_variation"] is None and found["above_one"] is None
-    assert found["panel_area"] > 0
+    groups = Combinations({"S1": {}}, {"D1": {}})
+    layout = Layout(ZIGZAG, STRIP, "all")
+    found = measure_state(mesh, layout, make_analysis(), make_arrays(), groups, "panel_mean")
+    assert found.utilization_variation is None and found.above_one is None
+    assert found.panel_area > 0 and found.volume_change is None
 
 
 def test_least_factor_is_that_of_the_strength_combinations():
-    report = {
-        "verdict": "converged", "reason": "", "iteration": 14, "volume_m3": 80.0, "area_m2": 1600.0,
-        "criteria": {}, "buckling_factor": {"S1": 4.0, "S2": 3.0, "S3": None, "D1": 2.0},
-    }  # fmt: skip
-    found = measure_report(report, {"S1": {}, "S2": {}, "S3": {}})
-    assert found["buckling_factor"] == 3.0 and found["iterations"] == 15
-    assert found["volume_per_area"] == 0.05 and found["displacement"] is None
+    factors = {"S1": 4.0, "S2": 3.0, "S3": None, "D1": 2.0}
+    record = make_analysis(iteration=14, volume_m3=80.0, area_m2=1600.0, buckling_factor=factors)
+    groups = Combinations({"S1": {}, "S2": {}, "S3": {}}, {"D1": {}})
+    mesh = mesh_folded_sheet(corrugated_sheet(), "all", 1)
+    found = measure_state(
+        mesh, Layout(ZIGZAG, STRIP, "all"), record, make_arrays(), groups, "panel_mean"
+    )
+    assert found.buckling_factor == 3.0 and found.iterations == 15
+    assert found.volume_per_area == 0.05 and found.displacement is None
 
 
 def test_depth_of_a_folded_sheet_on_a_slope():

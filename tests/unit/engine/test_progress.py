@@ -4,7 +4,8 @@ import pytest
 
 import progress as script
 from foldshell.engine.progress import describe_iteration, estimate_left, read_progress
-from foldshell.files.whole import write_timed_json
+from foldshell.records.analysis import write_analysis
+from record_cases import make_analysis
 
 
 def report(number, verdict="continue", **changes):
@@ -13,24 +14,23 @@ def report(number, verdict="continue", **changes):
         "utilization_panel_mean_max": 0.98765, "displacement_vertical_max_m": 0.05,
         "buckling_factor": {"S1": 7.0, "S2": 3.456, "D1": None}, "seconds": 2.0,
     }  # fmt: skip
-    return known | changes
+    return make_analysis(**known | changes)
 
 
 def write(folder, design, *reports):
     for item in reports:
-        write_timed_json(folder / design / f"sizing/{item['iteration']:02d}/analysis.json", item)
+        write_analysis(folder / design / f"sizing/{item.iteration:02d}/analysis.json", item)
 
 
 def test_line_of_an_iteration():
     assert describe_iteration("a", report(7)) == (
-        "a iteration 07: volume 12.35 m3, utilization 0.988, displacement 0.0500 m, "
-        "buckling factor 3.46, continue: why"
+        "a iteration 07: volume 12.35 m3, largest panel mean of utilization 0.988, "
+        "displacement 0.0500 m, buckling factor 3.46, continue: why"
     )
 
 
 def test_line_of_an_unstable_iteration_has_no_made_up_numbers():
-    bare = {"iteration": 0, "verdict": "continue", "reason": "factor 0.9", "buckling_factor": {}}
-    line = describe_iteration("a", bare)
+    line = describe_iteration("a", make_analysis(reason="factor 0.9", buckling_factor={}))
     assert "utilization -," in line and "buckling factor -," in line and "nan" not in line
 
 

@@ -26,6 +26,7 @@ from foldshell.results.colour_scales import ABOVE, COMPRESSION, TENSION, exagger
 from foldshell.results.design_view import make_design_view
 from foldshell.settings.material import Material
 from foldshell.settings.sizing import Sizing
+from record_cases import make_analysis
 
 SIZE = (640, 480)
 LIMITS, MATERIAL = Sizing(), Material()
@@ -174,10 +175,10 @@ def test_long_words_are_broken_not_shrunk():
     lines = wrap(text, font, 300)
     assert all(font.getlength(line) <= 300 for line in lines)
     assert " ".join(lines) == text.strip()
-    assert describe_verdict({"verdict": "not_converged", "iteration": 29}) == (
+    assert describe_verdict(make_analysis(verdict="not_converged", reason="", iteration=29)) == (
         "not converged after 30 analyses"
     )
-    assert describe_verdict({"verdict": "unstable", "reason": "a mechanism"}) == (
+    assert describe_verdict(make_analysis(verdict="unstable", reason="a mechanism")) == (
         "unstable after 1 analysis: a mechanism"
     )
 

@@ -1,11 +1,14 @@
 """Texts of users: whatever a browser, a spreadsheet or a terminal could act on is refused."""
 
+from dataclasses import dataclass
+
 import pytest
 
 from foldshell.files.errors import InputError
 from foldshell.files.plain_text import find_unsafe
+from foldshell.records.entry import entry
+from foldshell.records.table import read_rows, write_rows
 from foldshell.settings.make import make_settings
-from foldshell.workbook.tables import write_csv
 
 HOSTILE = [
     "</script><script>alert(1)</script>", "<img src=x onerror=alert(1)>.obj", "a\nb", "a\rb",
@@ -31,7 +34,17 @@ def test_plain_text_of_any_language_is_taken(text):
     assert find_unsafe(text) is None
 
 
+@dataclass(frozen=True, kw_only=True)
+class Row:
+    """A text and a number."""
+
+    a: str = entry("a text")
+    b: float | None = entry("a number", "-")
+
+
 def test_a_csv_field_never_begins_a_formula(tmp_path):
     """A text gets an apostrophe; numbers, also negative ones, stay numbers."""
-    write_csv(tmp_path / "a.csv", ["a", "b"], [{"a": "=1+1", "b": -2.5}, {"a": "-", "b": None}])
+    rows = [Row(a="=1+1", b=-2.5), Row(a="-", b=None)]
+    write_rows(tmp_path / "a.csv", Row, rows)
     assert (tmp_path / "a.csv").read_text() == "a,b\n'=1+1,-2.5\n-,\n"
+    assert read_rows(tmp_path / "a.csv", Row) == rows

@@ -7,12 +7,13 @@ from folding_cases import fold_case
 from foldshell.folding.constraints import require_planar
 from foldshell.folding.exact import project_vertices
 from foldshell.folding.fold import fold_sheet, judge_shape
-from foldshell.folding.quality import Quality, measure_quality
+from foldshell.folding.quality import measure_quality
 from foldshell.folding.shape import Shape
 from foldshell.folding.targets import make_target
 from foldshell.pattern.design import design_sheet
 from foldshell.pattern.unfold import unfold_panels
 from foldshell.settings.fold import Fold
+from record_cases import make_quality
 
 
 def write_dome(path, span=5.0, points=25, noise=0.02, seed=1, corner=(0.0, 0.0, 0.0)):
@@ -65,10 +66,10 @@ def test_iterations_that_end_within_the_limits_are_ok():
 
 
 def test_what_is_no_number_is_not_ok():
-    quality = Quality(*[0.0] * 14)
+    quality = make_quality(plan_coverage=0.0)
     shape = Shape(np.zeros((1, 3)), np.zeros((1, 3)), 1, True, "settled")
     assert judge_shape(shape, quality, 2e-3, 0.8, "elastic")[0] == "crumpled"  # coverage 0
-    lost = Quality(float("nan"), *[0.0] * 13)
+    lost = make_quality(rms_over_span=float("nan"))
     assert judge_shape(shape, lost, 2e-3, 0.0, "elastic")[0] == "not_reached"
 
 

@@ -3,6 +3,7 @@
 import copy
 import json
 import re
+from dataclasses import replace
 from pathlib import Path
 
 import jsonschema
@@ -33,7 +34,7 @@ ANALYSIS = {
     "verdict": "continue", "reason": "not stationary yet",
     "criteria": {"utilization_min": {"value": None, "limit": 0.6, "met": False}},
     "stationary_iterations": 0, "displacement_place_m": [0.0, 1.5, 2.0],
-    "seconds": 0.25, "edited": False,
+    "edited": False, "counted_from": 0,
 }  # fmt: skip
 UNITS = {"m": "m", "m2": "m2", "m3": "m3", "kn": "kN", "knm": "kNm", "rad": "rad", "deg": "deg",
          "s": "s", "mb": "MB"}  # fmt: skip
@@ -70,11 +71,12 @@ def write(path, **changed):
 def test_a_record_reads_and_writes_the_same_content(tmp_path):
     record = read_analysis(write(tmp_path / "analysis.json"))
     assert record.volume_m3 == 60.0 and record.goes_on
-    assert record.criteria["utilization_min"] == Criterion(value=None, limit=0.6, met=False)
+    assert record.criteria.utilization_min == Criterion(value=None, limit=0.6, met=False)
     assert record.displacement_place_m == (0.0, 1.5, 2.0) and record.utilization_max is None
     assert (record.least_factor, record.least_factor_combination) == (4.25, "S1")
-    write_analysis(tmp_path / "again.json", record)
+    write_analysis(tmp_path / "again.json", replace(record, seconds=1.5))
     assert json.loads((tmp_path / "again.json").read_text()) == ANALYSIS
+    assert json.loads((tmp_path / "seconds.json").read_text()) == {"seconds": 1.5}
 
 
 @pytest.mark.parametrize(
@@ -92,7 +94,11 @@ def test_a_record_reads_and_writes_the_same_content(tmp_path):
         ({"utilisation_max": 1.0}, "utilisation_max: is not known, the nearest is utilization_max"),
         ({"buckling_factor": [1.0]}, "buckling_factor: [1.0]: must be names with values"),
         ({"buckling_factor": {"S1": "x"}}, "buckling_factor.S1: 'x': must be a number"),
-        ({"criteria": {"a": {"limit": 1, "met": True}}}, "criteria.a.value: is missing"),
+        (
+            {"criteria": {"utilization_min": {"limit": 1, "met": True}}},
+            "criteria.utilization_min.value: is missing",
+        ),
+        ({"criteria": {"utilization": {}}}, "criteria.utilization: is not known, the nearest is"),
         ({"displacement_place_m": [1.0, 2.0]}, "displacement_place_m: [1.0, 2.0]: must be a list"),
         ({"displacement_place_m": [1.0, 2.0, {}]}, "displacement_place_m[2]: {}: must be a num"),
     ],

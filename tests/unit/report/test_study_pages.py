@@ -1,21 +1,29 @@
 """Pages over all designs."""
 
+from foldshell.records.summary import SummaryRow
+from foldshell.records.table import write_rows
 from foldshell.report.study_pages import write_settings_page, write_summary_page
-
-HEADER = ("design,state,surface,span_m,height_m,zigzag,strip,support,volume_m3,volume_per_area_m,"
-          "utilization_mean,utilization_p99,displacement_vertical_max_m,buckling_factor_min,"
-          "mesh_error,crosscheck,iterations,reason")  # fmt: skip
+from record_cases import make_summary
 
 
 def test_every_design_is_a_row_with_its_units(tmp_path):
     """Metres become mm, shares per cent; a design without results has dashes and its reason."""
     path = tmp_path / "summary.csv"
-    good = "a,converged,arch,28,10,15,16,all,95.28,0.0646,0.64,2.4,0.0979,10.9,0.045,pass,15,met"
-    bad = "b,unstable,arch,28,10,15,16,strip,,,,,,,,,1,<b>mechanism</b>"
-    path.write_text(f"{HEADER}\n{good}\n{bad}\n")
+    good = {
+        "volume_m3": 95.28, "volume_per_area_m": 0.0646, "utilization_mean": 0.64,
+        "displacement_vertical_max_m": 0.0979, "mesh_error": 0.045, "crosscheck": "pass",
+        "iterations": 15, "edited_panels": 7, "utilization_panel_mean_max": 0.9234,
+    }  # fmt: skip
+    rows = [
+        make_summary(design="a", **good),
+        make_summary(design="b", state="unstable", iterations=1, reason="<b>mechanism</b>"),
+    ]
+    write_rows(path, SummaryRow, rows)
     page = write_summary_page(path)
     assert '<a href="../a/page.html">a</a>' in page
-    for text in ("64.6", "97.9", "4.5", "volume / area [mm]", "1 converged, 1 unstable: 2 in all"):
+    words = "1 converged, 1 unstable: 2 in all"
+    for text in ("64.6", "97.9", "4.5", "volume / area [mm]", words, "0.9234",
+                 "utilization, largest panel mean [-]", "panels changed by a person"):  # fmt: skip
         assert text in page
     assert "&lt;b&gt;mechanism" in page
     assert page.count("<tr>") == 3

@@ -1,5 +1,7 @@
 """What the 3D view is given: every field that the state allows, and none that it does not."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
@@ -47,7 +49,7 @@ def test_values_survive_the_packing(tmp_path):
     """Thickness 50 to 150 mm, displacement -x^2 mm: within a 65534th of their range."""
     found, state = view_of(tmp_path)
     values = unpack_arrays(*pack_arrays(found.arrays))
-    assert np.abs(values["panel_thickness"] - state.final["thickness"]).max() < 1e-6
+    assert np.abs(values["panel_thickness"] - state.final.thickness).max() < 1e-6
     down = state.cells.nodes[:, 0] ** 2
     assert np.abs(values["field_displacement"] - down).max() < 1e-4 * down.max()
     moved = values["shape_displacement"]
@@ -85,7 +87,7 @@ def test_very_large_sheets_are_shown_by_facets(tmp_path, monkeypatch):
     fine, state = view_of(tmp_path)
     monkeypatch.setattr(viewer_data, "CELLS_MAX", 10)
     cells = np.random.default_rng(5).permutation(8 * PANELS).reshape(-1, 4)
-    state.final["utilization_cell"] = cells
+    state = replace(state, final=replace(state.final, utilization_cell=cells))
     coarse = make_viewer_data(make_design_view(state, 5.0, Sizing(), Material()))
     assert np.array_equal(coarse.arrays["field_utilization"], cells.max(axis=1))
     assert len(coarse.arrays["triangles"]) == 2 * PANELS

@@ -7,6 +7,7 @@ import pytest
 
 from figure_cases import make_state
 from foldshell.loads.cases import make_load_cases
+from foldshell.records.analysis_arrays import AnalysisArrays
 from foldshell.results.combination_fields import basis_gradient, evaluate_combinations
 from foldshell.settings.analysis import Analysis
 from foldshell.settings.loads import Loads
@@ -40,7 +41,7 @@ def beam_state(folder, turn):
     cells = result_mesh(mesh, vertices, facets)
     state = replace(
         make_state(folder), mesh=mesh, cells=cells, triangles=cell_triangles(cells), shell={},
-        final={"thickness": np.full(3, THICKNESS), "displacement": done.displacement},
+        final=AnalysisArrays(thickness=np.full(3, THICKNESS), displacement=done.displacement),
         strength=("S1",), deflection=(),
     )  # fmt: skip
     return state, cells.nodes[state.triangles].mean(axis=1) @ [cosine, sine, 0]

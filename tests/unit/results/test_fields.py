@@ -29,7 +29,7 @@ def test_constant_strain_gives_constant_forces(tmp_path):
     )
     found = membrane_force_coefficients(state, "D2", MODULUS, POISSON)
     force, axes = membrane_force_cells(*found, state.mesh)
-    t = state.final["thickness"][state.cell_panel]
+    t = state.final.thickness[state.cell_panel]
     exact = np.array([1e-3 - 0.2 * 2e-3, -2e-3 + 0.2 * 1e-3, 0.4 * 1e-3]) / (1 - 0.2**2) * MODULUS
     assert np.allclose(force, t[:, None] * exact, rtol=1e-9)
     assert np.allclose(axes, np.eye(3), atol=1e-12)
@@ -39,9 +39,9 @@ def test_forces_are_those_of_the_analysis(tmp_path):
     """Same coefficients as the function that the analysis uses, on a folded sheet."""
     state = make_state(tmp_path, move=lambda x: 1e-3 * np.sin(x + x[:, [1, 2, 0]]))
     coefficients, _ = membrane_force_coefficients(state, "S2", MODULUS, POISSON)
-    thickness = state.final["thickness"][state.mesh.panel]
+    thickness = state.final.thickness[state.mesh.panel]
     operators = build_operators(state.mesh, POISSON)
-    exact = membrane_forces(operators, state.final["displacement"][:, [1]], thickness, MODULUS)
+    exact = membrane_forces(operators, state.final.displacement[:, [1]], thickness, MODULUS)
     assert np.allclose(coefficients, exact[..., 0], rtol=1e-9, atol=1e-9 * np.abs(exact).max())
 
 

@@ -30,11 +30,12 @@ def analysed(folder):
     material = given.material
     model = build_model(state.mesh, state.shell["supported_nodes"], material.poissons_ratio)
     cases = make_load_cases(given.loads, material.unit_weight)
-    thickness = model.to_elements(state.final["thickness"])
+    thickness = model.to_elements(state.final.thickness)
     found = analyse_shell(
         model, thickness, material, cases, given.combinations.all, given.analysis
     )  # fmt: skip
-    return replace(state, final={**state.final, "displacement": found.displacement}), given, model
+    final = replace(state.final, displacement=found.displacement)
+    return replace(state, final=final), given, model
 
 
 def test_reactions_carry_the_loads(tmp_path):
@@ -42,7 +43,7 @@ def test_reactions_carry_the_loads(tmp_path):
     state, given, model = analysed(tmp_path)
     found = find_reactions(state, given)
     area, normal = model.operators.geometry.area, model.operators.geometry.frame[:, 2]
-    thickness = model.to_elements(state.final["thickness"])
+    thickness = model.to_elements(state.final.thickness)
     own = -25.0 * (area * thickness).sum()
     dead = -0.5 * (area[:, None] * normal).sum(axis=0)
     live, wind = -1.0 * area.sum(), 0.85 * area.sum()
@@ -70,6 +71,6 @@ def test_edges_share_out_all_reactions(tmp_path):
 def test_no_displacements_no_reactions(tmp_path):
     """A mechanism has none."""
     state, given, _ = analysed(tmp_path)
-    lost = np.full_like(state.final["displacement"], np.nan)
-    broken = replace(state, final={**state.final, "displacement": lost})
+    lost = np.full_like(state.final.displacement, np.nan)
+    broken = replace(state, final=replace(state.final, displacement=lost))
     assert find_reactions(broken, given) is None

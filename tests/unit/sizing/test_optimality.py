@@ -7,6 +7,7 @@ import pytest
 
 from foldshell.checks.utilization import compute_utilization, panel_utilization
 from foldshell.loads.cases import combination_matrix, make_load_cases
+from foldshell.records.analysis import Criteria
 from foldshell.settings.analysis import Analysis
 from foldshell.settings.loads import Combinations, Loads
 from foldshell.settings.material import Material
@@ -19,6 +20,7 @@ from foldshell.sizing.constraints import Constraints
 from foldshell.sizing.optimality import MARGIN, minimise_volume, optimality
 from foldshell.sizing.rules import start_state
 from foldshell.sizing.step import propose_thickness
+from record_cases import make_analysis, make_criterion
 from sizing_case import PANELS, corrugated_sheet
 
 LIMITS = Sizing()
@@ -72,19 +74,17 @@ def test_analysis_without_constraints_is_refused():
 def test_displacement_is_left_to_the_constraints():
     """Where only the displacement is open dead_band grows all panels; this rule may thin some."""
     step = Sizing(rule="optimality")
-    analysis = {
-        "state": "ok", "buckling_factor": {"S1": 9.0},
-        "criteria": {"displacement_vertical_m": {"met": False}},
-    }  # fmt: skip
+    criteria = Criteria(displacement_vertical_m=make_criterion(False))
+    analysis = make_analysis(buckling_factor={"S1": 9.0}, criteria=criteria)
     constraints = Constraints(np.array([1.2]), np.array([[-9.0, 0.0]]), np.ones(2))
     new = propose_thickness(
-        analysis, np.full(2, 0.1), np.full(2, 0.5), {}, step, constraints
+        analysis, np.full(2, 0.1), np.full(2, 0.5), None, step, constraints
     ).thickness
     assert new[0] > 0.1 and new[1] == pytest.approx(0.07)
     unstable = propose_thickness(
-        {"state": "unstable", "reason": "buckled"}, np.full(2, 0.1), None, {}, step
+        make_analysis(state="unstable", reason="buckled"), np.full(2, 0.1), None, None, step
     )
-    assert unstable.memory["step"] == pytest.approx([0.15, 0.15])
+    assert unstable.memory.step == pytest.approx([0.15, 0.15])
 
 
 def build_case(second_order):

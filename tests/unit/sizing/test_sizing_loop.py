@@ -5,6 +5,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
+from foldshell.records.analysis import Criteria
+from foldshell.records.analysis_arrays import AnalysisArrays
 from foldshell.results.gather import remove_superseded
 from foldshell.settings.sizing import Sizing
 from foldshell.sizing.criteria import IterationState, judge_iteration
@@ -21,6 +23,7 @@ from foldshell.sizing.step import (
     propose_thickness,
     take_step,
 )
+from record_cases import make_analysis, make_criterion
 from sizing_case import given
 
 LIMITS = STEP = STOP = Sizing()
@@ -67,18 +70,15 @@ def test_thicken_all_grows_by_a_step():
 
 
 def analysis(state="ok", displacement_met=True, factor=5.0):
-    return {
-        "state": state,
-        "reason": "a reason",
-        "buckling_factor": {"S1": factor, "D1": None},
-        "criteria": {"displacement_vertical_m": {"met": displacement_met}},
-    }
+    criteria = Criteria(displacement_vertical_m=make_criterion(displacement_met))
+    factors = {"S1": factor, "D1": None}
+    return make_analysis(state=state, buckling_factor=factors, criteria=criteria)
 
 
 def test_panels_do_not_thin_while_the_buckling_factor_is_low():
     thickness, used = np.full(2, 0.1), np.array([1.2, 0.2])
-    free = propose_thickness(analysis(factor=1.6), thickness, used, {}, STEP)
-    held = propose_thickness(analysis(factor=1.4), thickness, used, {}, STEP)
+    free = propose_thickness(analysis(factor=1.6), thickness, used, None, STEP)
+    held = propose_thickness(analysis(factor=1.4), thickness, used, None, STEP)
     assert free.thickness == pytest.approx([0.11, 0.09])
     assert held.thickness == pytest.approx([0.11, 0.1])
     assert "buckling factor" in held.note[1]
@@ -86,16 +86,16 @@ def test_panels_do_not_thin_while_the_buckling_factor_is_low():
 
 def test_displacement_alone_thickens_everything():
     thickness, used = np.full(2, 0.1), np.array([0.9, 0.2])
-    new = propose_thickness(analysis(displacement_met=False), thickness, used, {}, STEP)
+    new = propose_thickness(analysis(displacement_met=False), thickness, used, None, STEP)
     assert new.thickness == pytest.approx([0.11, 0.11])
     overstressed = np.array([1.1, 0.2])
-    new = propose_thickness(analysis(displacement_met=False), thickness, overstressed, {}, STEP)
+    new = propose_thickness(analysis(displacement_met=False), thickness, overstressed, None, STEP)
     assert new.thickness == pytest.approx([0.11, 0.1])
 
 
 def test_instability_thickens_from_the_last_stable_state_a_step_more_each_time():
     stable = np.array([0.1, 0.2])
-    good = propose_thickness(analysis(), stable, np.array([0.5, 0.5]), {}, STEP)
+    good = propose_thickness(analysis(), stable, np.array([0.5, 0.5]), None, STEP)
     assert good.thickness == pytest.approx([0.09, 0.18])
     first = propose_thickness(analysis("unstable"), good.thickness, None, good.memory, STEP)
     assert first.thickness == pytest.approx([0.11, 0.22])
@@ -105,7 +105,7 @@ def test_instability_thickens_from_the_last_stable_state_a_step_more_each_time()
 
 
 def test_instability_at_the_very_start_thickens_what_there_is():
-    new = propose_thickness(analysis("unstable"), np.array([0.1]), None, {}, STEP)
+    new = propose_thickness(analysis("unstable"), np.array([0.1]), None, None, STEP)
     again = propose_thickness(analysis("unstable"), new.thickness, None, new.memory, STEP)
     assert new.thickness == pytest.approx([0.11])
     assert again.thickness == pytest.approx([0.121])
@@ -123,8 +123,8 @@ def iteration(**changes) -> IterationState:
 def test_table_3_is_met():
     verdict = judge_iteration(iteration(), STOP)
     assert verdict.verdict == "converged"
-    assert all(item["met"] for item in verdict.criteria.values())
-    assert verdict.criteria["displacement_vertical_m"]["limit"] == pytest.approx(28 / 240)
+    assert verdict.criteria.open_names == []
+    assert verdict.criteria.displacement_vertical_m.limit == pytest.approx(28 / 240)
 
 
 @pytest.mark.parametrize(
@@ -199,27 +199,64 @@ def test_gathering_removes_what_a_kill_left_half_written(tmp_path):
     assert whole.exists() and not half.exists()
 
 
+def test_an_edit_starts_a_new_count_of_iterations():
+    """26 analyses, then a hand edit: 30 more are allowed, and the reason says since when."""
+    much = {"displacement": 0.2, "iteration": 26}
+    assert judge_iteration(iteration(**much), replace(STOP, iterations_max=26)).verdict == (
+        "not_converged"
+    )
+    assert judge_iteration(iteration(**much | {"counted_from": 26}), STOP).verdict == "continue"
+    late = judge_iteration(iteration(**much | {"iteration": 56, "counted_from": 26}), STOP)
+    assert late.verdict == "not_converged"
+    assert "30 iterations since the edit of iteration 26 are used up" in late.reason
+    last = judge_iteration(iteration(**much | {"iteration": 99, "counted_from": 80}), STOP)
+    assert last.verdict == "not_converged" and "iteration 99 is the last one" in last.reason
+    shaky = iteration(state="unstable", reason="0.9", iteration=99, counted_from=80)
+    assert judge_iteration(shaky, STOP).verdict == "unstable"
+
+
+def test_the_displacement_limit_is_not_met_at_equality():
+    """Table 3 asks for less than the limit; utilization may equal its limit, and least value."""
+    at = judge_iteration(iteration(displacement=28 / 240), STOP).criteria
+    assert not at.displacement_vertical_m.met
+    assert at.displacement_vertical_m.value == at.displacement_vertical_m.limit
+    below = judge_iteration(iteration(displacement=np.nextafter(28 / 240, 0)), STOP).criteria
+    assert below.displacement_vertical_m.met
+    full = judge_iteration(iteration(utilization=np.array([0.6, 1.0])), STOP).criteria
+    assert full.utilization_panel_mean.met
+    least = judge_iteration(iteration(utilization=np.array([0.6, 0.6])), STOP).criteria
+    assert least.utilization_min.met
+
+
+@pytest.mark.parametrize("measure", ["panel_mean", "element_max"])
+def test_the_criterion_is_named_after_its_measure(measure):
+    found = judge_iteration(iteration(), replace(STOP, measure=measure)).criteria
+    names = [about.key for about, _ in found.items()]
+    assert names[0] == f"utilization_{measure}" and names.count("utilization_max") == 0
+
+
 def test_an_overstressed_edge_beam_keeps_the_loop_open():
     """Its criterion stands beside those of Table 3, and only where there is an edge beam."""
     assert judge_iteration(iteration(), STOP).verdict == "converged"
     fine = judge_iteration(iteration(edge_beam=1.0), STOP)
-    assert fine.verdict == "converged" and fine.criteria["edge_beam_utilization"]["met"]
+    assert fine.verdict == "converged" and fine.criteria.edge_beam_utilization.met
     above = judge_iteration(iteration(edge_beam=1.2), STOP)
     assert above.verdict == "continue" and "edge_beam_utilization" in above.reason
 
 
 def test_a_panel_is_sized_by_the_edge_beam_that_hangs_from_it_if_that_is_used_more():
-    arrays = {
-        "utilization_panel_mean": np.array([0.5, 0.7, 0.9, 0.4]),
-        "edge_beam_utilization_panel_mean": np.array([1.3, 0.2]),
-        "edge_beam_panel": np.array([0, 2]),
-    }
+    arrays = AnalysisArrays(
+        thickness=np.full(4, 0.1),
+        utilization_panel_mean=np.array([0.5, 0.7, 0.9, 0.4]),
+        edge_beam_utilization_panel_mean=np.array([1.3, 0.2]),
+        edge_beam_panel=np.array([0, 2]),
+    )
     assert choose_utilization(arrays, "panel_mean").tolist() == [1.3, 0.7, 0.9, 0.4]
-    assert arrays["utilization_panel_mean"][0] == 0.5
+    assert arrays.utilization_panel_mean[0] == 0.5
     sizing = given("resize").sizing
-    step = take_step(analysis(), arrays | {"thickness": np.full(4, 0.1)}, {}, sizing)
+    step = take_step(analysis(), arrays, None, sizing)
     assert step.thickness == pytest.approx([0.11, 0.1, 0.1, 0.09])
     assert step.note == (EDGE_BEAM_NOTE, "", "", "")
-    plain = {"utilization_panel_mean": np.array([0.5])}
+    plain = AnalysisArrays(thickness=np.ones(1), utilization_panel_mean=np.array([0.5]))
     assert choose_utilization(plain, "panel_mean").tolist() == [0.5]
-    assert choose_utilization({}, "panel_mean") is None
+    assert choose_utilization(AnalysisArrays(thickness=np.ones(1)), "panel_mean") is None

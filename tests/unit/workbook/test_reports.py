@@ -9,63 +9,63 @@ import numpy as np
 import openpyxl
 import pytest
 
-from foldshell.results.history import HISTORY_KEYS, make_history
-from foldshell.results.summary import SUMMARY_KEYS
+from foldshell.records.analysis import Criteria
+from foldshell.records.entry import entries
+from foldshell.records.history import HistoryRow
+from foldshell.records.summary import SummaryRow
+from foldshell.records.table import write_rows
+from foldshell.results.history import make_history
 from foldshell.settings.make import make_settings
 from foldshell.settings.stages import stage_parameters
 from foldshell.workbook.design import DesignReport, flatten, write_design
-from foldshell.workbook.history import write_history, write_history_csv
+from foldshell.workbook.history import write_history
 from foldshell.workbook.panels import make_panel_grid
-from foldshell.workbook.styles import split_unit
+from foldshell.workbook.styles import Line, make_lines
 from foldshell.workbook.summary import write_summary
+from foldshell.workbook.tables import make_column
+from record_cases import USED, make_analysis, make_criterion, make_summary
 
 GRID = make_panel_grid(4, 5)
 
 
-def make_analysis(iteration: int, **changes):
-    analysis = {
-        "iteration": iteration,
-        "verdict": "continue",
-        "reason": "utilization above 1",
-        "volume_m3": 100.0 - 7.0 * iteration,
-        "area_m2": 1000.0,
-        "utilization_max": 1.2,
-        "utilization_p99": 0.9,
-        "utilization_panel_mean_max": 1.1,
-        "panels_above_one": 3,
-        "displacement_vertical_max_m": 0.02,
-        "buckling_factor": {"S1": 12.0, "S2": 10.5, "D1": None},
-        "reaction_imbalance": 1e-13,
-        "second_order_iterations": {"S1": 6, "S2": 8},
-    }
-    return {**analysis, **changes}
+HISTORY_KEYS = tuple(key for key, about in entries(HistoryRow).items() if not about.left_out)
+SUMMARY_KEYS = tuple(entries(SummaryRow))
+LINES = [Line("design", "a"), Line("verdict", "converged", judged=True)]
+
+
+def make_iteration(iteration: int, **changes):
+    volume = 100.0 - 7.0 * iteration
+    return make_analysis(iteration=iteration, volume_m3=volume, **USED | changes)
 
 
 @pytest.fixture
 def rows():
-    analyses = [make_analysis(0), make_analysis(1), make_analysis(2, verdict="converged")]
+    edit = {"edited": True, "edited_panels": (3, 5)}
+    analyses = [make_iteration(0), make_iteration(1, **edit),
+                make_iteration(2, verdict="converged")]  # fmt: skip
     thicknesses = [np.full(12, 0.15), np.linspace(0.1, 0.2, 12), np.full(12, 0.1)]
-    return make_history(analyses, thicknesses, 28 / 240, edited=[1])
+    return make_history(analyses, thicknesses, 28 / 240)
 
 
 def test_history_rows(rows):
-    assert [row["volume_change_m3"] for row in rows] == [None, -7.0, -7.0]
-    assert {row["buckling_factor_min"] for row in rows} == {10.5}
-    assert {row["second_order_iterations"] for row in rows} == {8}
-    assert [row["edited"] for row in rows] == [None, "edited", None]
-    assert rows[1]["thickness_mean_m"] == pytest.approx(0.15)
-    assert set(rows[0]) == set(HISTORY_KEYS)
+    assert [row.volume_change_m3 for row in rows] == [None, -7.0, -7.0]
+    assert {row.buckling_factor_min for row in rows} == {10.5}
+    assert {row.second_order_iterations for row in rows} == {8}
+    assert [row.edited for row in rows] == [None, "edited", None]
+    assert [row.edited_panels for row in rows] == [None, 2, None]
+    assert rows[1].thickness_mean_m == pytest.approx(0.15)
 
 
 def test_history_without_results_has_empty_cells():
     """An unstable analysis has neither volume nor factors: its row is still there."""
-    (row,) = make_history([{"iteration": 0, "verdict": "unstable", "reason": "mechanism"}])
-    assert row["volume_m3"] is None and row["buckling_factor_min"] is None
-    assert row["verdict"] == "unstable"
+    bare = make_analysis(verdict="unstable", reason="mechanism", buckling_factor={"S1": None})
+    (row,) = make_history([bare])
+    assert row.utilization_max is None and row.buckling_factor_min is None
+    assert row.verdict == "unstable"
 
 
 def test_history_csv_keeps_all_digits(tmp_path, rows):
-    write_history_csv(tmp_path / "history.csv", rows)
+    write_rows(tmp_path / "history.csv", HistoryRow, rows)
     with (tmp_path / "history.csv").open(encoding="utf-8", newline="") as stream:
         read = list(csv.DictReader(stream))
     assert [float(row["displacement_limit_m"]) for row in read] == [28 / 240] * 3
@@ -75,11 +75,11 @@ def test_history_csv_keeps_all_digits(tmp_path, rows):
 def test_history_workbook_charts_leave_header_and_units_out(tmp_path, rows):
     """Data begin in row 3; a chart that began in row 2 would plot the unit."""
     path = tmp_path / "history.xlsx"
-    write_history(path, rows, {"design": "a", "verdict": "converged"})
+    write_history(path, rows, LINES)
     book = openpyxl.load_workbook(path)
     assert book.sheetnames == ["summary", "history", "charts"]
     values = list(book["history"].iter_rows(values_only=True))
-    assert values[0] == HISTORY_KEYS and values[1][3] == "m3" and len(values) == 5
+    assert values[0] == HISTORY_KEYS and values[1][4] == "m3" and len(values) == 5
     with zipfile.ZipFile(path) as archive:
         charts = [
             archive.read(name).decode() for name in archive.namelist() if "charts/chart" in name
@@ -94,7 +94,7 @@ def test_the_utilization_chart_draws_the_edge_beam(tmp_path):
     """The series must point at the column of the edge beam, which stands after `reason`."""
     used = {"edge_beam_utilization_max": 1.6, "edge_beam_utilization_panel_mean_max": 1.3}
     path = tmp_path / "history.xlsx"
-    write_history(path, make_history([make_analysis(0, **used), make_analysis(1, **used)]), {})
+    write_history(path, make_history([make_iteration(0, **used), make_iteration(1, **used)]), [])
     sheet = openpyxl.load_workbook(path)["history"]
     column = [cell.value for cell in sheet[1]].index("edge_beam_utilization_panel_mean_max")
     letter = sheet.cell(1, column + 1).column_letter
@@ -104,7 +104,7 @@ def test_the_utilization_chart_draws_the_edge_beam(tmp_path):
 
 
 def test_one_iteration_still_gives_a_workbook(tmp_path, rows):
-    write_history(tmp_path / "history.xlsx", rows[:1], {})
+    write_history(tmp_path / "history.xlsx", rows[:1], [])
     assert openpyxl.load_workbook(tmp_path / "history.xlsx")["history"].max_row == 3
 
 
@@ -112,17 +112,17 @@ def make_report(rows):
     settings = make_settings({})
     return DesignReport(
         title="Design a",
-        verdict={"design": "a", "verdict": "converged", "volume_m3": 86.0},
-        criteria={
-            "utilization": {"value": 0.9, "limit": [0.6, 1.0], "met": True},
-            "volume_change_m3": {"value": None, "limit": 10.0, "met": False},
-        },
+        verdict=[*LINES, Line("volume", 86.0, "m3")],
+        criteria=Criteria(
+            utilization_panel_mean=make_criterion(value=0.9),
+            volume_change_m3=make_criterion(False, None, 10.0),
+        ),
         grid=GRID,
         thickness=np.linspace(0.05, 0.2, 12),
         utilization=np.linspace(0.2, 1.1, 12),
         thickness_class=np.arange(12) % 3 + 1,
         history=rows,
-        loads={"live_kn_m2": 1.0},
+        loads=[Line("live", 1.0, "kN/m2")],
         combinations=settings.combinations,
         settings=stage_parameters(settings, "study"),
         versions={"foldshell": "0.1.0"},
@@ -136,7 +136,14 @@ def test_design_workbook(tmp_path, rows):
     book = openpyxl.load_workbook(path)
     assert book.sheetnames == ["summary", "panels", "history", "charts", "loads", "notes"]
     panels = list(book["panels"].iter_rows(values_only=True))
-    assert panels[0] == ("panel", "zigzag", "strip", "thickness_m", "utilization", "class")
+    assert panels[0] == (
+        "panel",
+        "zigzag",
+        "strip",
+        "thickness_m",
+        "utilization_panel_mean",
+        "class",
+    )
     assert panels[1] == ("-", "-", "-", "m", "-", "-")
     assert panels[13] == (11, 2, 3, 0.2, 1.1, 3)
     loads = {row[0]: row for row in book["loads"].iter_rows(values_only=True)}
@@ -158,11 +165,11 @@ def test_panels_without_a_result_have_empty_cells(tmp_path, rows):
 
 def test_summary_workbook(tmp_path):
     rows = [
-        {"design": "a", "state": "converged", "volume_m3": 86.0, "crosscheck": "pass"},
-        {"design": "b", "state": "failed", "reason": "sizing/00/analysis.json is missing"},
+        make_summary(volume_m3=86.0, crosscheck="pass", utilization_panel_mean_max=0.95),
+        make_summary(design="b", state="failed", reason="sizing/00/analysis.json is missing"),
     ]
     path = tmp_path / "summary.xlsx"
-    write_summary(path, SUMMARY_KEYS, rows, {"sizing": {"step": 0.1}})
+    write_summary(path, rows, {"sizing": {"step": 0.1}})
     book = openpyxl.load_workbook(path)
     assert book.sheetnames == ["summary", "overview", "notes"]
     values = list(book["summary"].iter_rows(values_only=True))
@@ -176,9 +183,9 @@ def test_summary_workbook(tmp_path):
 
 def test_same_values_give_the_same_bytes(tmp_path, rows):
     def write(folder):
-        write_history(folder / "history.xlsx", rows, {"design": "a"})
+        write_history(folder / "history.xlsx", rows, LINES)
         write_design(folder / "design.xlsx", make_report(rows))
-        write_summary(folder / "summary.xlsx", SUMMARY_KEYS, [{"design": "a"}], {})
+        write_summary(folder / "summary.xlsx", [make_summary()], {})
         return [path.read_bytes() for path in sorted(folder.iterdir())]
 
     first, second = tmp_path / "first", tmp_path / "second"
@@ -190,26 +197,52 @@ def test_same_values_give_the_same_bytes(tmp_path, rows):
 
 
 def test_infinite_values_leave_no_file(tmp_path, rows):
-    rows[0]["volume_m3"] = float("inf")
+    rows[0] = dataclasses.replace(rows[0], volume_m3=float("inf"))
     with pytest.raises(TypeError):
-        write_history(tmp_path / "history.xlsx", rows, {})
+        write_history(tmp_path / "history.xlsx", rows, [])
     assert list(tmp_path.iterdir()) == []
 
 
 @pytest.mark.parametrize(
-    ("key", "expected"),
+    ("key", "unit", "style"),
     [
-        ("volume_m3", ("volume", "m3")),
-        ("span_m", ("span", "m")),
-        ("volume_per_area_m", ("volume per area", "m3/m2")),
-        ("live_kn_m2", ("live", "kN/m2")),
-        ("start_thickness_mm", ("start thickness", "mm")),
-        ("utilization_max", ("utilization max", "-")),
-        ("settings_hash", ("settings hash", "-")),
+        ("volume_m3", "m3", "decimal"),
+        ("span_m", "m", "general"),
+        ("displacement_vertical_max_m", "m", "metre"),
+        ("volume_per_area_m", "m3/m2", "decimal"),
+        ("utilization_max", "-", "decimal"),
+        ("mesh_error", "-", "percent"),
+        ("panels_above_one", "-", "integer"),
+        ("settings_hash", "", "text"),
+        ("reason", "", "wrap"),
     ],
 )
-def test_units_come_from_the_key(key, expected):
-    assert split_unit(key) == expected
+def test_columns_have_unit_and_format_of_their_field(key, unit, style):
+    known = {**entries(HistoryRow), **entries(SummaryRow)}
+    column = make_column(known[key])
+    assert (column.key, column.unit, column.style) == (key, unit, style)
+
+
+def test_lines_have_words_and_unit_of_their_field():
+    """A field that is left out where it has no value has no line."""
+    keys = ("volume_m3", "utilization_max", "edge_beam_volume_m3", "dofs", "verdict")
+    assert make_lines(make_analysis(utilization_max=0.5), keys) == [
+        Line("volume", 100.0, "m3"),
+        Line("utilization, largest of all points", 0.5),
+        Line("unknowns", 1234),
+        Line("verdict", "continue", judged=True),
+    ]
+
+
+def test_only_what_decides_is_marked_above_its_limit(tmp_path, rows):
+    """The peak of an element and the 99 % value have no limit; the measure of the loop has one."""
+    write_history(tmp_path / "history.xlsx", rows, [])
+    write_summary(tmp_path / "summary.xlsx", [make_summary()], {})
+    for name, keys in (("history", HISTORY_KEYS), ("summary", SUMMARY_KEYS)):
+        sheet = openpyxl.load_workbook(tmp_path / f"{name}.xlsx")[name]
+        (area,) = sheet.conditional_formatting
+        column = sheet.cell(1, keys.index("utilization_panel_mean_max") + 1).column_letter
+        assert str(area.sqref).startswith(f"{column}3")
 
 
 def test_flatten():

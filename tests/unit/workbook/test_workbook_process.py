@@ -33,7 +33,7 @@ def test_whole_process_stays_small(tmp_path):
     grid = make_panel_grid(101, 91)
     path = tmp_path / "thickness.xlsx"
     table = ThicknessTable(grid, np.full(9000, 0.1), note=("some words",) * 9000)
-    write_thickness(path, table, {}, LEAST, LARGEST)
+    write_thickness(path, table, [], LEAST, LARGEST)
     peak = run_python(
         "import re\n"
         "from foldshell.workbook.panels import make_panel_grid\n"

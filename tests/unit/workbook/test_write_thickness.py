@@ -112,7 +112,7 @@ def test_input_cells_are_marked_and_validated(tmp_path):
 def test_summary_shows_label_value_and_unit(tmp_path):
     sheet = openpyxl.load_workbook(write_case(tmp_path / "t.xlsx"))["summary"]
     shown = {row[0]: row[1:3] for row in sheet.iter_rows(min_row=3, max_row=6, values_only=True)}
-    assert shown["design"][0] == "a" and shown["volume"] == (12.5, "m3")
+    assert shown["design"][0] == "a" and shown["volume of analysis 00"] == (12.5, "m3")
 
 
 @pytest.mark.parametrize(

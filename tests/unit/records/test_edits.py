@@ -5,22 +5,21 @@ import os
 import numpy as np
 import pytest
 
-from foldshell.files.edits import (
+from foldshell.files.whole import hash_file, write_json
+from foldshell.records.edits import (
     RECORD,
+    find_edited_panels,
     hash_edit,
     is_edited,
     keep_all_edited,
     keep_edited,
     recorded_workbook,
 )
-from foldshell.files.whole import hash_file, write_json
-from workbook_cases import edit_with_openpyxl, write_case
-
-VALUES = np.array([0.1, 0.1 + 0.2])
+from workbook_cases import THICKNESS, edit_with_openpyxl, write_case
 
 
 def write_recorded(path):
-    with recorded_workbook(path, path.parent / RECORD, VALUES) as temporary:
+    with recorded_workbook(path, path.parent / RECORD, THICKNESS) as temporary:
         write_case(temporary)
     return path
 
@@ -78,6 +77,21 @@ def test_without_a_record_nothing_is_claimed(path, record):
     assert not is_edited(path) and not keep_edited(path)
 
 
+def test_edited_panels_are_those_whose_thickness_differs(path):
+    """D5 is the cell of panel 2; a workbook that was only saved anew is edited in no panel."""
+    assert find_edited_panels(path, THICKNESS) is None
+    edit_with_openpyxl(path, lambda book: None)
+    assert find_edited_panels(path, THICKNESS) == ()
+    changed = THICKNESS.copy()
+    changed[[2, 7]] += 1e-12
+    assert find_edited_panels(path, changed) == (2, 7)
+
+
+def test_without_the_written_thickness_all_panels_count(path):
+    write_json(path.parent / RECORD, {"sha256": "0"})
+    assert find_edited_panels(path, THICKNESS) == tuple(range(12))
+
+
 def test_missing_workbook(path):
     path.unlink()
     assert not is_edited(path)
@@ -117,10 +131,10 @@ def test_a_workbook_that_was_read_keeps_its_date(path, tmp_path):
 
 def test_an_edited_value_changes_the_hash_of_decisions_and_a_saved_copy_does_not(path):
     """Another file with the same values decides nothing else; one last bit does."""
-    assert hash_edit("base", path, VALUES) == "base"
+    assert hash_edit("base", path, THICKNESS) == "base"
     edit_with_openpyxl(path, lambda book: None)
-    assert is_edited(path) and hash_edit("base", path, VALUES.copy()) == "base"
-    one = hash_edit("base", path, np.nextafter(VALUES, 1))
-    assert len(one) == 12 and one != hash_edit("other", path, np.nextafter(VALUES, 1))
+    assert is_edited(path) and hash_edit("base", path, THICKNESS.copy()) == "base"
+    one = hash_edit("base", path, np.nextafter(THICKNESS, 1))
+    assert len(one) == 12 and one != hash_edit("other", path, np.nextafter(THICKNESS, 1))
     (path.parent / RECORD).unlink()
-    assert hash_edit("base", path, VALUES) == "base"
+    assert hash_edit("base", path, THICKNESS) == "base"

@@ -9,66 +9,76 @@ from pathlib import Path
 
 import numpy as np
 
-from foldshell.files.whole import atomic_path, hash_data, hash_file, read_json, write_json
+from foldshell.files.errors import InputError
+from foldshell.files.whole import DIGITS, atomic_path, hash_data, hash_file, read_json
+from foldshell.records.files import read_record, write_record
+from foldshell.records.written import WrittenRecord
 
 WORKBOOK = "thickness.xlsx"
 ANALYSIS = "analysis.json"
 NEWER_NS = 1_000_000_000
 RECORD = "written.json"
-"""Beside each thickness.xlsx: the hash of the bytes that the workflow wrote, and of the values."""
-
-DIGITS = 12
-"""Hexadecimal digits of the hash of all that decides a design, as tables and workbooks show it."""
+"""Beside each thickness.xlsx: what the workflow wrote."""
 
 
 @contextmanager
 def recorded_workbook(
-    workbook: str | Path, record: str | Path, values: np.ndarray
+    workbook: str | Path, record: str | Path, thickness: np.ndarray
 ) -> Iterator[Path]:
-    """Yield a temporary name for a workbook of thicknesses (P,) m; write down the hashes of its
-    bytes and of these `values`, then rename it into place.
+    """Yield a temporary name for a workbook with a thickness (P,) m; write down its hash and
+    these, then rename it into place.
 
     The workbook comes last, since the next analysis waits for it.
     """
     with atomic_path(workbook) as temporary:
         yield temporary
-        hashes = {"sha256": hash_file(temporary), "values_sha256": hash_data(values.tolist())}
-        write_json(record, hashes)
+        hashed, written = hash_file(temporary), tuple(thickness.tolist())
+        write_record(record, WrittenRecord(sha256=hashed, thickness_m=written))
+
+
+def read_written(workbook: str | Path) -> WrittenRecord | None:
+    """Return what the workflow wrote into a workbook, None without a record that can be read."""
+    try:
+        return read_record(Path(workbook).parent / RECORD, WrittenRecord)
+    except InputError:
+        return None
 
 
 def is_edited(workbook: str | Path) -> bool:
     """Tell whether a workbook differs from what the workflow wrote; False without a record, and
     for other files beside it."""
     workbook = Path(workbook)
-    if workbook.name != WORKBOOK:
-        return False
-    try:
-        recorded = read_json(workbook.parent / RECORD)["sha256"]
-    except (OSError, ValueError, KeyError, TypeError):
-        return False
-    return workbook.exists() and hash_file(workbook) != recorded
+    written = read_written(workbook) if workbook.name == WORKBOOK else None
+    return written is not None and workbook.exists() and hash_file(workbook) != written.sha256
 
 
-def hash_edit(decisions: str, workbook: str | Path, values: np.ndarray) -> str:
+def find_edited_panels(workbook: str | Path, thickness: np.ndarray) -> tuple[int, ...] | None:
+    """Return the panels whose thickness (P,) m a person has changed, None in a workbook that
+    nobody has.
+
+    A workbook that was only saved anew has none; without a record of what was written all count.
+    """
+    if not is_edited(workbook):
+        return None
+    before = read_written(workbook).thickness_m
+    if before is None or len(before) != len(thickness):
+        return tuple(range(len(thickness)))
+    return tuple(np.flatnonzero(np.asarray(before) != thickness).tolist())
+
+
+def hash_edit(decisions: str, workbook: str | Path, thickness: np.ndarray) -> str:
     """Return the hash of all that decides a design, once its thicknesses (P,) m were read.
 
-    It stays what it was, unless a person has changed the values that the workflow wrote.
+    It stays what it was, unless a person has changed a thickness that the workflow wrote.
     """
-    read = hash_data(values.tolist())
-    try:
-        written = read_json(Path(workbook).parent / RECORD)["values_sha256"]
-    except (OSError, ValueError, KeyError, TypeError):
-        written = read
-    return decisions if read == written else hash_data([decisions, read])[:DIGITS]
+    edited = find_edited_panels(workbook, thickness)
+    return hash_data([decisions, thickness.tolist()])[:DIGITS] if edited else decisions
 
 
-def describe_reading(
-    workbook: str | Path, values: np.ndarray, decisions: str
-) -> dict[str, str | bool]:
+def describe_reading(workbook: str | Path, thickness: np.ndarray, decisions: str) -> dict[str, str]:
     """Return what an analysis says of the workbook of thicknesses (P,) m that it read."""
     return {
-        "edited": is_edited(workbook),
-        "settings_hash": hash_edit(decisions, workbook, values),
+        "settings_hash": hash_edit(decisions, workbook, thickness),
         "workbook_sha256": hash_file(workbook),
     }
 
@@ -97,7 +107,7 @@ def renew_if_unread(workbook: str | Path) -> bool:
     workbook = Path(workbook)
     analysis = workbook.with_name(ANALYSIS)
     try:
-        read = read_json(analysis)["workbook_sha256"]
+        read = read_json(analysis)["workbook_sha256"]  # also in a file of another version
         if hash_file(workbook) == read:
             return False
         now = max(time.time_ns(), analysis.stat().st_mtime_ns + NEWER_NS)

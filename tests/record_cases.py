@@ -1,0 +1,98 @@
+"""Records with all their fields, for tests that care for a few of them."""
+
+from foldshell.records.analysis import AnalysisRecord, Criteria, Criterion
+from foldshell.records.classes import ClassesRecord, ThicknessClass
+from foldshell.records.comparison import ComparedQuantity, ComparisonRecord
+from foldshell.records.mesh_convergence import MeshConvergenceRecord, MeshStudy, ReferenceMesh
+from foldshell.records.quality import QualityRecord
+from foldshell.records.summary import SummaryRow
+
+STATE = {
+    "iteration": 0, "state": "ok", "volume_m3": 100.0, "area_m2": 1000.0,
+    "buckling_factor": {"S1": 12.0, "S2": 10.5, "D1": None}, "second_order_iterations": 8,
+    "second_order_residual": 1e-7, "dofs": 1234, "mesh_subdivisions": 4, "element_order": 5,
+}  # fmt: skip
+ANALYSIS = STATE | {
+    "verdict": "continue", "reason": "a reason", "criteria": Criteria(),
+    "stationary_iterations": 0,
+}  # fmt: skip
+USED = {
+    "utilization_max": 1.2, "utilization_p99": 0.9, "utilization_mean": 0.5,
+    "utilization_panel_mean_max": 1.1, "governing_combination": "S2",
+    "displacement_vertical_max_m": 0.02, "displacement_combination": "D1",
+    "displacement_place_m": (0.0, 0.0, 5.0), "reaction_sum_kn": {"S1": (0.0, 0.0, 9.0)},
+    "reaction_imbalance": 1e-13, "panels_at_bound": 2, "panels_above_one": 3,
+}  # fmt: skip
+
+
+def make_analysis(**changes) -> AnalysisRecord:
+    """Return an analysis that goes on; those with `USED` in `changes` have numbers."""
+    return AnalysisRecord(**ANALYSIS | changes)
+
+
+def make_criterion(met=True, value=0.5, limit=1.0) -> Criterion:
+    """Return one criterion."""
+    return Criterion(value=value, limit=limit, met=met)
+
+
+def make_classes(groups=(), **changes) -> ClassesRecord:
+    """Return classes.json with classes of (thickness m, panels, area m2)."""
+    classes = tuple(
+        ThicknessClass(number=k, thickness_m=thickness, panels=panels, area_m2=area)
+        for k, (thickness, panels, area) in enumerate(groups, start=1)
+    )
+    rest = {
+        "verdict": "holds", "reason": "all criteria are met", "criteria": Criteria(), "count": 4,
+        "rounds": 0, "classes": classes, "ungrouped_volume_m3": 90.0,
+        "added_volume_relative": 0.12,
+    }  # fmt: skip
+    return ClassesRecord(**STATE | rest | changes)
+
+
+def make_quality(**changes) -> QualityRecord:
+    """Return quality.json of a sheet that reached its target."""
+    numbers = dict.fromkeys(
+        ("rms_over_span", "max_over_span", "edge_strain_max", "edge_strain_rms",
+         "angle_defect_max_rad", "planarity_max", "planarity_mean", "neutral_fold_mean_deg",
+         "neutral_fold_max_deg", "plan_coverage", "edge_ratio_max"), 0.01,
+    )  # fmt: skip
+    counts = dict.fromkeys(("flipped_folds", "self_intersections", "panels_not_convex"), 0)
+    rest = {"state": "ok", "reason": "", "iterations": 7}
+    return QualityRecord(**numbers | counts | rest | changes)
+
+
+def make_convergence(errors=None, reason=None, **changes) -> MeshConvergenceRecord:
+    """Return mesh_convergence.json with errors by combination and quantity."""
+    study = MeshStudy(
+        subdivisions=(4, 12), reference=ReferenceMesh(order=7), combinations={}, reason=reason
+    )
+    values = {"mesh_error": 0.03, "buckling_mesh_error": 0.01, "subdivisions": 4}
+    return MeshConvergenceRecord(**values | changes, errors=errors or {}, study=study)
+
+
+def make_quantity(passed=False, **changes) -> ComparedQuantity:
+    """Return one compared quantity."""
+    values = {
+        "primary": 0.1, "independent": 0.11, "relative_difference": 0.09, "tolerance": 0.05,
+        "unit": "kNm",
+    }  # fmt: skip
+    return ComparedQuantity(passed=passed, **values | changes)
+
+
+def make_comparison(passed=False, quantities=None, **changes) -> ComparisonRecord:
+    """Return comparison.json."""
+    values = {
+        "design": "case", "not_compared": (), "not_settled": (), "primary_subdivisions": (4.0,),
+        "independent_subdivisions": (1, 2), "solver": "multifrontal",
+    }  # fmt: skip
+    return ComparisonRecord(passed=passed, quantities=quantities or {}, **values | changes)
+
+
+def make_summary(**changes) -> SummaryRow:
+    """Return the row of a design of which nothing is known but its columns."""
+    values = {
+        "design": "a", "tags": "one", "pattern": "miura", "surface": "paraboloid", "span_m": 28.0,
+        "height_m": 10.0, "zigzag": 15, "strip": 16, "support": "all", "fold_mode": "paper",
+        "state": "converged", "mesh_subdivisions": 4, "settings_hash": "0" * 12,
+    }  # fmt: skip
+    return SummaryRow(**values | changes)
