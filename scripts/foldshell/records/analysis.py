@@ -185,6 +185,15 @@ class AnalysisRecord(ShellState):
         "hash of all that decides the design up to here: settings, surface, edits", left_out=True
     )
     workbook_sha256: str | None = entry("SHA-256 of the workbook that was read", left_out=True)
+    model_warnings: tuple[str, ...] | None = entry(
+        "what theory or mesh does not hold, a sentence each; stands in the last analysis of a loop",
+        words="model warnings", left_out=True,
+    )  # fmt: skip
+
+    @property
+    def warning(self) -> str | None:
+        """What theory or mesh does not hold, as one line; None for nothing."""
+        return "; ".join(self.model_warnings or ()) or None
 
     @property
     def goes_on(self) -> bool:

@@ -72,6 +72,10 @@ class SummaryRow:
     planarity_max: float | None = _quality("planarity_max")
     utilization_panel_mean_max: float | None = _state("utilization_panel_mean_max")
     governing_combination: str | None = _state("governing_combination")
+    model_warnings: str | None = entry(
+        "what theory or mesh does not hold of the final state; empty for nothing",
+        words="model warnings", default=None,
+    )  # fmt: skip
     edited_panels: int | None = entry(
         "panels whose thickness a person changed in some iteration; empty for none",
         COUNT, "panels changed by a person", default=None,

@@ -108,6 +108,7 @@ def make_sections(files: DesignFiles, utilization_max: float) -> list[Section]:
     """Return all sections of a design's page, what matters most first."""
     return [
         make_verdict(files.final, files.history),
+        *make_warnings(files.final),
         make_criteria(files.final.criteria),
         make_history(files.history, utilization_max),
         make_headlines(files.final),
@@ -134,6 +135,14 @@ def make_verdict(final: AnalysisRecord, history: Sequence[HistoryRow] = ()) -> S
     words = f"after {count_analyses(final)}"
     box = Box(kind, words, final.verdict.replace("_", " "), final.reason)
     return Section("Verdict", box, note=describe_edits(history))
+
+
+def make_warnings(final: AnalysisRecord) -> list[Section]:
+    """Return what theory or mesh does not hold, so that no number is read without it."""
+    found = final.model_warnings or ()
+    words = f"of the model: {'; '.join(found)}"
+    head = "1 warning" if len(found) == 1 else f"{len(found)} warnings"
+    return [Section("Model", Box("bad", words, head))] if found else []
 
 
 def describe_edits(history: Sequence[HistoryRow]) -> str:

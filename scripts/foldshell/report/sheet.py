@@ -153,6 +153,7 @@ def _quality(files: SheetFiles) -> Table:
         rows.append(("mesh error", f"{100 * convergence.mesh_error:.2f} %"))
     if convergence.buckling_mesh_error is not None:
         rows.append(("mesh error of buckling", f"{100 * convergence.buckling_mesh_error:.2f} %"))
+    rows.append(("warnings of the model", files.final.warning or "none"))
     if files.final.reaction_imbalance is not None:
         rows.append(("reactions against loads", f"{files.final.reaction_imbalance:.1e}"))
     return make_table(("what", "result"), rows)

@@ -42,6 +42,7 @@ COLUMNS = (
     "planarity_max",
     "iterations",
     "edited_panels",
+    "model_warnings",
     "reason",
 )
 """Columns of the summary that the page shows."""

@@ -76,6 +76,7 @@ def _describe_last(last: AnalysisRecord | None) -> dict[str, float | str | None]
         **{key: getattr(last, key) for key in _COPIED},
         "volume_per_area_m": last.volume_m3 / last.area_m2 if last.area_m2 else None,
         "buckling_factor_min": last.least_factor,
+        "model_warnings": last.warning,
     }
 
 

@@ -27,6 +27,7 @@ from foldshell.sizing.describe import (
     split_area,
 )
 from foldshell.sizing.linearise import linearise_constraints
+from foldshell.sizing.model_check import find_warnings
 
 MEASURES = list_settings(Sizing)["measure"].choices
 """Utilization of a panel: area mean over its cells, or its largest cell; see
@@ -79,6 +80,7 @@ class AnalysisCase:
         if done.utilization is not None:
             record = describe_edge_beam(done, describe_sheet(done, record))
         if not record.goes_on:
+            record = replace(record, model_warnings=find_warnings(done))
             arrays = add_final_fields(done, arrays)
         elif self.factor_min is not None and done.result.state == "ok":
             arrays = _add_constraints(done, self.factor_min, arrays)

@@ -59,6 +59,7 @@ def make_design_report(
         verdict=[
             *_describe_design(design),
             *make_lines(last, ("verdict", "reason")),
+            Line("model warnings", last.warning or "none"),
             Line("iterations", len(iterations.analyses)),
             *describe_edits(iterations.analyses),
             *make_lines(last, HEADLINES),

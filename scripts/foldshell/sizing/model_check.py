@@ -1,0 +1,41 @@
+"""The state that a loop ends with, looked at before its numbers are believed."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from foldshell.checks.validity import (
+    ModelState,
+    find_support_runs,
+    list_warnings,
+    measure_form_radii,
+    measure_widths,
+)
+from foldshell.shell.results import support_reactions
+
+if TYPE_CHECKING:
+    from foldshell.sizing.describe import Analysed
+
+
+def find_warnings(done: Analysed) -> tuple[str, ...]:
+    """Return one sentence for each bound of theory or mesh that the analysed state passes.
+
+    Without displacements only the thicknesses are looked at.
+    """
+    model, task = done.case.model, done.task
+    sized, supported = model.sized_panels, model.supported_nodes
+    answered = done.utilization is not None
+    reactions = None
+    if answered:
+        reactions = support_reactions(model, done.result, done.thickness, done.case.material)
+    state = ModelState(
+        thickness=task.thickness,
+        width=measure_widths(model.mesh)[:sized],
+        radius=measure_form_radii(model.mesh, sized),
+        span=task.span,
+        displacement=done.downward[0] if answered else None,
+        reactions=reactions,
+        nodes=model.mesh.nodes[supported],
+        runs=find_support_runs(model.mesh, supported),
+    )
+    return tuple(list_warnings(state))
