@@ -1,0 +1,137 @@
+"""Panels on sheets of a given size, one thickness class to a sheet.
+
+Large panels lie in rows (`row_packing`), small ones, of which a sheet takes many, are nested by
+sparrow (Gardeyn, Vanden Berghe & Wauters 2025, through spyrrow). Every sheet is checked with
+shapely before it counts: inside its sheet, no two panels over one another.
+"""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from foldshell.exchange.flat_panels import FlatPanel
+from foldshell.exchange.options import load_library
+from foldshell.exchange.row_packing import RowPacker
+from foldshell.files.errors import InputError
+
+GAP = 0.002
+"""Between panels of a sheet, m: the width of a cut."""
+MANY = 8
+"""From so many panels a sheet on, by area, the library nests."""
+FILL = (0.88, 0.85, 0.82, 0.79, 0.76, 0.72, 0.66, 0.6, 0.5, 0.35, 0.0)
+"""Shares of a sheet's area that are tried, the largest first; at the last a panel stands alone."""
+SEED = 1
+
+
+@dataclass(frozen=True)
+class Sheet:
+    """Panels on one sheet: numbers, and where the corners of each lie, (k, 2) m."""
+
+    thickness_class: int
+    numbers: tuple[int, ...]
+    outlines: tuple[np.ndarray, ...]
+
+
+@dataclass(frozen=True)
+class Nesting:
+    """All sheets; `oversize` are panels that no sheet takes; `use`, area of panels by sheets."""
+
+    sheets: tuple[Sheet, ...]
+    oversize: tuple[int, ...]
+    use: float
+
+
+def nest_panels(panels: Sequence[FlatPanel], length: float, width: float, seconds: int) -> Nesting:
+    """Nest panels on sheets of length x width m, class by class; `seconds` bound the library."""
+    groups: dict[tuple[bool, int], list[FlatPanel]] = {}
+    for panel in panels:
+        key = (panel.panel.sized, panel.panel.thickness_class)
+        groups.setdefault(key, []).append(panel)
+    sheets: list[Sheet] = []
+    oversize: list[int] = []
+    for (_, number), group in sorted(groups.items(), key=lambda item: item[0]):
+        outlines = {panel.panel.number: panel.corners for panel in group}
+        made, large = _nest_group(outlines, length, width, seconds)
+        oversize += large
+        sheets += [Sheet(number, keys, places) for keys, places in made]
+    for sheet in sheets:
+        check_sheet(sheet, length, width)
+    area = sum(_area(outline) for sheet in sheets for outline in sheet.outlines)
+    use = area / (len(sheets) * length * width) if sheets else 0.0
+    return Nesting(tuple(sheets), tuple(sorted(oversize)), use)
+
+
+def _nest_group(outlines: dict[int, np.ndarray], length: float, width: float, seconds: int):
+    mean = np.mean([_area(outline) for outline in outlines.values()])
+    packer = RowPacker(outlines, length, width, GAP)
+    if length * width < MANY * mean:
+        return [(row.keys, row.outlines) for row in packer.fill()], packer.oversize
+    left = {key: outlines[key] for key in packer.turns}
+    sheets = []
+    while left:
+        keys, places = _fill_sheet(left, length, width, seconds)
+        sheets.append((keys, places))
+        for key in keys:
+            del left[key]
+    return sheets, packer.oversize
+
+
+def _fill_sheet(left: dict[int, np.ndarray], length: float, width: float, seconds: int):
+    """Take the largest panels that fill a share of the sheet, and less until they fit it."""
+    order = sorted(left, key=lambda key: (-_area(left[key]), key))
+    tried = None
+    for share in FILL:
+        keys, room = [], share * length * width
+        for key in order:
+            if not keys or _area(left[key]) <= room:
+                keys.append(key)
+                room -= _area(left[key])
+        if keys == tried:
+            continue
+        tried, places = keys, _nest_strip({key: left[key] for key in keys}, width, seconds)
+        if max(outline[:, 0].max() for outline in places) <= length:
+            return tuple(keys), tuple(places)
+    raise AssertionError("a panel that fits a sheet was not placed on it")
+
+
+def _nest_strip(outlines: dict[int, np.ndarray], width: float, seconds: int) -> list[np.ndarray]:
+    """Nest outlines on as short a strip as the library finds; the corners of each, (k, 2) m."""
+    spyrrow = load_library("spyrrow")
+    items = [
+        spyrrow.Item(str(key), [tuple(point) for point in outline.tolist()], 1, None)
+        for key, outline in outlines.items()
+    ]
+    problem = spyrrow.StripPackingInstance("sheet", width, items)
+    config = spyrrow.StripPackingConfig(
+        early_termination=True, total_computation_time=seconds, num_workers=1, seed=SEED,
+        min_items_separation=GAP,
+    )  # fmt: skip
+    places = {}
+    for item in problem.solve(config).placed_items:
+        angle = np.radians(item.rotation)
+        turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
+        places[int(item.id)] = outlines[int(item.id)] @ turn + item.translation
+    low = np.min([outline.min(axis=0) for outline in places.values()], axis=0)
+    return [places[key] - low for key in outlines]
+
+
+def check_sheet(sheet: Sheet, length: float, width: float) -> None:
+    """Raise `InputError` where panels of a sheet overlap or leave it by more than 1e-6 m."""
+    shapely = load_library("shapely")
+    shapes = [shapely.Polygon(outline) for outline in sheet.outlines]
+    box = shapely.box(-1e-6, -1e-6, length + 1e-6, width + 1e-6)
+    for shape, number in zip(shapes, sheet.numbers, strict=True):
+        if not box.covers(shape):
+            raise InputError(f"exports: nesting: panel {number} leaves its sheet")
+    tree = shapely.STRtree(shapes)
+    for a, b in tree.query(shapes, predicate="intersects").T.tolist():
+        if a < b and shapes[a].intersection(shapes[b]).area > 1e-9:
+            raise InputError(
+                f"exports: nesting: panels {sheet.numbers[a]} and {sheet.numbers[b]} overlap"
+            )
+
+
+def _area(outline: np.ndarray) -> float:
+    x, y = outline.T
+    return float(x @ np.roll(y, -1) - y @ np.roll(x, -1)) / 2
