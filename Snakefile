@@ -59,7 +59,7 @@ rule all:
 
 
 STAGES = ["pattern", "fold", "shell", "sizing", "final", "crosscheck", "study", "deliver"]
-for STAGE in [*STAGES, "manifest", "figures", "report", "sheets", "archive", "finish"]:
+for STAGE in [*STAGES, "manifest", "figures", "report", "sheets", "archive", "export", "finish"]:
 
     include: f"{RULES}/{STAGE}.smk"
 

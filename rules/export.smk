@@ -1,16 +1,8 @@
 # Files for other programs, one job for each format of a design; not part of a study.
 
-from foldshell.exchange.formats import FORMATS, name_files
+from foldshell.exchange.formats import FORMATS
 
 EXPORTS = f"{RESULTS}/{{design}}/exports"
-
-
-def exported(design):
-    """Return the files of all formats that are asked for, of a design."""
-    names = SETTINGS.exports.formats
-    files = [file for name in names for file in name_files(name, design)]
-    records = [f"records/{name}.json" for name in names]
-    return [f"{RESULTS}/{design}/exports/{file}" for file in files + records]
 
 
 for FORMAT in FORMATS:
@@ -18,8 +10,6 @@ for FORMAT in FORMATS:
     rule:
         name:
             f"export_{FORMAT}"
-        message:
-            f"{{wildcards.design}}: export {FORMAT}"
         input:
             mesh=rules.mesh.output.mesh,
             folded=rules.fold.output.folded,
@@ -29,19 +19,25 @@ for FORMAT in FORMATS:
             pattern=rules.pattern.output.fold,
             design_vtu=rules.draw.output.vtu,
             surface=surface_file,
+            content=surface_content,
             library=code_inputs("export"),
         output:
-            **{f"file{k}": f"{EXPORTS}/{f}" for k, f in enumerate(FORMATS[FORMAT].files)},
-            record=f"{EXPORTS}/records/{FORMAT}.json",
+            # What jobs wait for comes first: it is written last.
+            f"{EXPORTS}/records/{FORMAT}.json",
+            [f"{EXPORTS}/{file}" for file in FORMATS[FORMAT].files],
+        log:
+            log_of(f"export_{FORMAT}"),
+        priority: AFTER_LOOP
+        conda:
+            "../envs/exports.yaml"
         params:
             format_name=FORMAT,
             design=lambda wildcards: BY_NAME[wildcards.design].to_row(),
             settings=lambda wildcards: of_stage("crosscheck")(wildcards)
             | of_stage("drawings")(wildcards)
             | of_stage("exports")(wildcards),
-        priority: AFTER_LOOP
-        conda:
-            "../envs/exports.yaml"
+        message:
+            f"{{wildcards.design}}: export {FORMAT}"
         script:
             "../scripts/export.py"
 

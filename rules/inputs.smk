@@ -1,6 +1,7 @@
 # Files: logs and times of jobs, what the rules over all designs read and write.
 
 from foldshell.claims.sensitivity import VARIANTS
+from foldshell.exchange.formats import name_files
 from foldshell.records.catalogue import FILES
 
 
@@ -91,3 +92,11 @@ JUDGED = {
 SIZED = ["folded/folded.npz", "folded/quality.json", "shell/mesh.npz", "mesh_convergence.json"]
 SIZED += ["sizing/00/analysis.json", "sizing/00/analysis.npz", "sizing/final.json"]
 SIZED += ["sizing/final.npz", "crosscheck/comparison.json"]
+
+
+def exported(design):
+    """Return the files of all formats that are asked for, of a design."""
+    names = SETTINGS.exports.formats
+    files = [file for name in names for file in name_files(name, design)]
+    records = [f"records/{name}.json" for name in names]
+    return [f"{RESULTS}/{design}/exports/{file}" for file in files + records]

@@ -9,6 +9,7 @@ from functools import cached_property
 
 import numpy as np
 
+from foldshell.loads.cases import SurfaceLoad, surface_loads
 from foldshell.settings.material import Material
 
 PLANAR = 1e-6
@@ -69,23 +70,6 @@ class Support:
 
 
 @dataclass(frozen=True)
-class LoadCase:
-    """A surface load on panels: self-weight, or `vector` kN/m2.
-
-    `frame` is global, or local: components along no axis but the facet's normal (the third).
-    `basis` tells whether a square metre of sheet counts, or one of plan. `panels` carry it.
-    """
-
-    name: str
-    label: str
-    kind: str
-    frame: str
-    vector: tuple[float, float, float]
-    basis: str
-    panels: tuple[int, ...]
-
-
-@dataclass(frozen=True)
 class Target:
     """The surface that the design was folded onto: its name or file, span and height in m."""
 
@@ -112,7 +96,7 @@ class ExportModel:
     creases: tuple[Crease, ...]
     supports: tuple[Support, ...]
     material: Material
-    load_cases: tuple[LoadCase, ...]
+    load_cases: tuple[SurfaceLoad, ...]
     combinations: Mapping[str, Mapping[str, float]]
     groups: Mapping[str, tuple[str, ...]]
     compared: Mapping[str, str]
@@ -127,6 +111,11 @@ class ExportModel:
     def thickness(self) -> np.ndarray:
         """Thickness of each facet, (F,) m."""
         return np.array([panel.thickness for panel in self.panels])[self.facet_panel]
+
+    @cached_property
+    def self_weight_only(self) -> np.ndarray:
+        """Facets that carry nothing but their own weight, (F,) bool."""
+        return ~np.array([panel.sized for panel in self.panels])[self.facet_panel]
 
     @cached_property
     def normals(self) -> np.ndarray:
@@ -155,23 +144,16 @@ class ExportModel:
         return float(self.areas @ self.thickness)
 
 
-def surface_loads(model: ExportModel, case: LoadCase) -> np.ndarray:
+def load_on_facets(model: ExportModel, case: SurfaceLoad) -> np.ndarray:
     """Return a case's load on each facet, (F, 3) kN per m2 of sheet."""
-    loaded = np.isin(model.facet_panel, case.panels)[:, None]
-    if case.kind == "self_weight":
-        size = model.material.unit_weight * model.thickness
-        return loaded * size[:, None] * [0.0, 0.0, -1.0]
-    if case.frame == "local":
-        return loaded * case.vector[2] * model.normals
-    share = np.abs(model.normals[:, 2]) if case.basis == "plan" else np.ones(len(model.facets))
-    return loaded * share[:, None] * np.array(case.vector)
+    bare = model.self_weight_only
+    return surface_loads(model.normals, model.thickness, [case], bare)[:, :, 0]
 
 
 def combined_loads(model: ExportModel, combination: str) -> np.ndarray:
     """Return the load of a combination on each facet, (F, 3) kN per m2 of sheet."""
     factors = model.combinations[combination]
-    total = np.zeros((len(model.facets), 3))
-    for case in model.load_cases:
-        if factors.get(case.name):
-            total += factors[case.name] * surface_loads(model, case)
-    return total
+    known = [case for case in model.load_cases if factors.get(case.case)]
+    if not known:
+        return np.zeros((len(model.facets), 3))
+    return sum(factors[case.case] * load_on_facets(model, case) for case in known)

@@ -21,6 +21,8 @@ MANY = 8
 """From so many panels a sheet on, by area, the library nests."""
 FILL = (0.88, 0.85, 0.82, 0.79, 0.76, 0.72, 0.66, 0.6, 0.5, 0.35, 0.0)
 """Shares of a sheet's area that are tried, the largest first; at the last a panel stands alone."""
+TRIES = 3
+"""Of the library for a sheet, as a rule."""
 SEED = 1
 
 
@@ -43,11 +45,16 @@ class Nesting:
 
 
 def nest_panels(panels: Sequence[FlatPanel], length: float, width: float, seconds: int) -> Nesting:
-    """Nest panels on sheets of length x width m, class by class; `seconds` bound the library."""
+    """Nest panels on sheets of length x width m, class by class.
+
+    `seconds` is what the library may take for all sheets together, at least one for each try.
+    """
     groups: dict[tuple[bool, int], list[FlatPanel]] = {}
     for panel in panels:
         key = (panel.panel.sized, panel.panel.thickness_class)
         groups.setdefault(key, []).append(panel)
+    small = sum(panel.area for panel in panels if MANY * panel.area <= length * width)
+    seconds = max(1, int(seconds / (TRIES * (small / (length * width) + len(groups)))))
     sheets: list[Sheet] = []
     oversize: list[int] = []
     for (_, number), group in sorted(groups.items(), key=lambda item: item[0]):

@@ -7,6 +7,7 @@ from pathlib import Path
 from types import ModuleType
 
 from foldshell.files.errors import InputError
+from foldshell.settings.exports import Drawings, Exports
 
 PACKAGES = {"rhino3dm": "rhino3dm", "ifcopenshell": "ifcopenshell", "trimesh": "trimesh",
             "shapely": "shapely", "spyrrow": "spyrrow", "ezdxf": "ezdxf",
@@ -27,6 +28,20 @@ class ExportOptions:
     nesting_seconds: int = 20
     subdivisions: tuple[int, int] = (1, 2)
     sources: Mapping[str, Path] = field(default_factory=dict)
+
+
+def make_options(
+    drawings: Drawings, exports: Exports, inputs: Mapping[str, str | Path]
+) -> ExportOptions:
+    """Return the options that settings name, with those files of a design that exports copy."""
+    return ExportOptions(
+        preset=drawings.preset,
+        scale=drawings.scale,
+        sheet_length=exports.sheet_length,
+        sheet_width=exports.sheet_width,
+        nesting_seconds=exports.nesting_seconds,
+        sources={role: Path(inputs[role]) for role in ("pattern", "design_vtu")},
+    )
 
 
 def load_library(name: str) -> ModuleType:

@@ -6,12 +6,14 @@ from typing import Any
 
 import numpy as np
 
-from foldshell.exchange.model import Crease, ExportModel, LoadCase, Panel, Support, Target
+from foldshell.exchange.model import Crease, ExportModel, Panel, Support, Target
 from foldshell.exchange.panels_of_mesh import Edges, classify, find_edges, find_loops, fit_plane
 from foldshell.files.errors import InputError
 from foldshell.files.whole import read_arrays, read_json
-from foldshell.settings.material import Material
+from foldshell.loads.cases import make_load_cases
+from foldshell.settings.stage import StageSettings
 
+GROUPS = ("strength", "deflection")
 _SCALARS = ("volume_m3", "area_m2", "utilization_max", "utilization_panel_mean_max",
             "displacement_vertical_max_m", "buckling_factor", "verdict", "reason")  # fmt: skip
 
@@ -19,7 +21,7 @@ _SCALARS = ("volume_m3", "area_m2", "utilization_max", "utilization_panel_mean_m
 def read_export_model(
     paths: Mapping[str, str | Path],
     design: Mapping[str, Any],
-    settings: Mapping[str, Any],
+    settings: StageSettings,
 ) -> ExportModel:
     """Read mesh.npz, folded.npz, final.npz, final.json and, where given, classes.npz and the
     engineering checks; `design` is a row of the table, `settings` those of stage `crosscheck`.
@@ -47,11 +49,11 @@ def read_export_model(
         panels=panels,
         creases=_make_creases(edges, facet_panel),
         supports=(Support(f"support {design['support']}", mesh["support_pairs"]),),
-        material=Material(**settings["material"]),
-        load_cases=make_load_cases(settings["loads"], panels),
-        combinations=settings["combinations"]["strength"] | settings["combinations"]["deflection"],
-        groups={name: tuple(group) for name, group in settings["combinations"].items()},
-        compared={name: settings["crosscheck"][name] for name in ("strength", "deflection")},
+        material=settings.material,
+        load_cases=make_load_cases(settings.loads, settings.material.unit_weight),
+        combinations=settings.combinations.all,
+        groups={name: tuple(getattr(settings.combinations, name)) for name in GROUPS},
+        compared={name: getattr(settings.crosscheck, name) for name in GROUPS},
         flat=folded["flat"],
         flat_facets=sheet,
         flat_note=_flat_note(design["fold_mode"]),
@@ -127,23 +129,3 @@ def _make_creases(edges: Edges, facet_panel: np.ndarray) -> tuple[Crease, ...]:
         angle = float(edges.angle[row])
         creases.append(Crease((first, second), classify(angle), angle, tuple(panels)))
     return tuple(creases)
-
-
-def make_load_cases(loads: Mapping[str, Any], panels: tuple[Panel, ...]) -> tuple[LoadCase, ...]:
-    """Return self-weight, superimposed dead load against the normal, live load, wind along x, y."""
-    everything = tuple(panel.number for panel in panels)
-    sheet = tuple(panel.number for panel in panels if panel.sized)
-    basis = "plan" if str(loads["area_basis"]).startswith("plan") else "sheet"
-    wind = loads["wind"] * loads["wind_fraction"]
-    dead, live = loads["superimposed_dead"], loads["live"]
-
-    def surface(name, label, frame, vector, basis):
-        return LoadCase(name, label, "surface", frame, vector, basis, sheet)
-
-    return (
-        LoadCase("SW", "self-weight", "self_weight", "global", (0, 0, -1.0), "sheet", everything),
-        surface("SDL", "superimposed dead load", "local", (0.0, 0.0, -dead), "sheet"),
-        surface("LL", "live load", "global", (0.0, 0.0, -live), basis),
-        surface("WX", "wind along x", "global", (wind, 0.0, 0.0), basis),
-        surface("WY", "wind along y", "global", (0.0, wind, 0.0), basis),
-    )

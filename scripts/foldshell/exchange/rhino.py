@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from foldshell.exchange.colours import ASSIGNMENTS, class_colours
-from foldshell.exchange.model import Crease, ExportModel, Panel, surface_loads
+from foldshell.exchange.model import Crease, ExportModel, Panel, load_on_facets
 from foldshell.exchange.options import ExportOptions, load_library
 from foldshell.files.errors import InputError
 from foldshell.files.whole import atomic_path, hash_data
@@ -116,7 +116,7 @@ def _open_scene(model: ExportModel) -> _Scene:
     colours |= {"PANELS": (150, 150, 150), "EDGE BEAM": (190, 190, 190)}
     colours |= {LAYERS[kind]: colour for kind, colour in ASSIGNMENTS.items()}
     colours |= {"BEND": (160, 160, 160), "SUPPORTS": (0, 130, 60), "TARGET": (120, 160, 220)}
-    colours |= {f"LOADS {case.name}": (200, 90, 0) for case in model.load_cases}
+    colours |= {f"LOADS {case.case}": (200, 90, 0) for case in model.load_cases}
     colours |= {f"FLAT PATTERN {LAYERS[kind]}": ASSIGNMENTS[kind] for kind in "MVBF"}
     for name, (red, green, blue) in colours.items():
         layer = rhino.Layer()
@@ -174,7 +174,7 @@ def _add_loads(scene: _Scene, model: ExportModel) -> None:
     """Add an arrow for each case and panel that carries it: direction and size of its load."""
     scale = ARROW * _size(model)
     for case in model.load_cases:
-        load = surface_loads(model, case)
+        load = load_on_facets(model, case)
         for panel in model.panels:
             vector = load[panel.facets[0]]
             if not vector.any():
@@ -182,7 +182,7 @@ def _add_loads(scene: _Scene, model: ExportModel) -> None:
             middle = model.vertices[panel.corners].mean(axis=0)
             text = {"panel": str(panel.number), "kn_m2": " ".join(map(repr, vector.tolist()))}
             ends = (middle - scale * vector, middle)
-            scene.add_line(ends, f"LOADS {case.name}", case.label, text, arrow=True)
+            scene.add_line(ends, f"LOADS {case.case}", case.case, text, arrow=True)
 
 
 def _add_target(scene: _Scene, model: ExportModel) -> None:

@@ -1,10 +1,11 @@
-"""The folded sheet as a solid: every facet with its thickness, mitred at folds, closed.
+"""The folded sheet as a solid: every panel with its thickness, mitred at folds, closed.
 
-Each facet is a slab between its plane's two offsets by half its thickness. At a fold it ends in the
-plane that halves the angle to its neighbour; where the neighbour is thinner, a step face in that
-plane closes the difference. A border ends square. Around a vertex the offset planes have in general
-no common point: neighbours end at a point of their common edge half way between where each of them
-would end alone, and a small cap joins these points; on the border the wall goes round them.
+Each planar panel, and each facet of a bent one, is a slab between its plane's two offsets by half
+its thickness. At a fold it ends in the plane that halves the angle to its neighbour; where the
+neighbour is thinner, a step face in that plane closes the difference. A border ends square. Around
+a vertex the offset planes have in general no common point: neighbours end at a point of their
+common edge half way between where each of them would end alone, and a small cap joins these points;
+on the border the wall goes round them.
 """
 
 import itertools
@@ -13,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from foldshell.exchange.model import ExportModel
+from foldshell.exchange.sides import Sides, list_sides
 from foldshell.files.errors import InputError
 
 MERGE = 1e-5
@@ -35,182 +37,150 @@ class Solid:
         return float(np.einsum("ij,ij->", a, np.cross(b, c)) / 6)
 
 
-@dataclass(frozen=True)
-class _Ends:
-    """Where facets end: `point` (2, F, 3, 2, 3) m of side (top, bottom), facet, edge k from corner
-    k to the next, and end; `neighbour` (F, 3) across each edge, -1 on the border."""
-
-    point: np.ndarray
-    neighbour: np.ndarray
-    slot: np.ndarray  # (F, 3) the edge's own number in the neighbour
-
-
 def thicken(model: ExportModel) -> Solid:
     """Build the solid of a model.
 
-    Raises `InputError` where an edge has more than two facets, or where mitres leave nothing of a
-    facet.
+    Raises `InputError` where an edge has more than two faces, or where mitres leave nothing of one.
     """
-    neighbour, slot = _find_neighbours(model.facets)
-    ends = _Ends(_end_points(model, neighbour, slot), neighbour, slot)
-    _check(model, ends)
-    number = np.arange(ends.point[..., 0].size).reshape(ends.point.shape[:-1])
-    middle = number.size + model.facets  # a border's edges from top to bottom go through vertices
-    faces = [*_sheets(number), *_steps(number, ends), *_walls(number, middle, ends)]
-    faces += _corners(number, middle, ends)
-    points = np.concatenate([ends.point.reshape(-1, 3), model.vertices])
-    return _join(points, faces, model.facet_panel)
+    sides = list_sides(model)
+    point = _end_points(model.vertices, sides)
+    _check(model, sides, point)
+    number = np.arange(point[..., 0].size).reshape(point.shape[:-1])
+    middle = number.size + sides.start  # a border's edges from top to bottom go through vertices
+    faces = [*_sheets(number, sides), *_steps(number, sides), *_walls(number, middle, sides)]
+    faces += _corners(number, middle, sides)
+    return _join(np.concatenate([point.reshape(-1, 3), model.vertices]), faces, sides.panel)
 
 
-def _find_neighbours(facets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    count = int(facets.max()) + 1
-    ends = facets[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
-    keys, back = ends @ [count, 1], ends @ [1, count]
-    order = np.argsort(keys)
-    twin = np.diff(keys[order]) == 0
-    if twin.any():
-        first, second = ends[order[np.flatnonzero(twin)[0]]]
-        raise InputError(
-            f"exports: solid: the edge between vertices {first} and {second} has more than two "
-            "facets, or facets turned over: each edge of a solid joins two"
-        )
-    place = np.minimum(np.searchsorted(keys[order], back), len(keys) - 1)
-    found = np.where(keys[order][place] == back, order[place], -1)
-    facet, slot = np.divmod(found, 3)
-    return np.where(found < 0, -1, facet).reshape(-1, 3), slot.reshape(-1, 3)
+def fold_tangents(vertices: np.ndarray, sides: Sides) -> np.ndarray:
+    """tan(phi / 2) of the fold at every side, valley positive, 0 on the border."""
+    along = _directions(vertices, sides)
+    mine, other = sides.normal, sides.normal[sides.twin]
+    sine = np.einsum("hx,hx->h", np.cross(mine, other), along)
+    cosine = np.einsum("hx,hx->h", mine, other)
+    # seen along an edge with its face on the left, a valley turns the right one's normal to it
+    return np.where(sides.twin < 0, 0.0, np.tan(np.arctan2(-sine, cosine) / 2))
 
 
-def fold_tangents(model: ExportModel, neighbour: np.ndarray) -> np.ndarray:
-    """tan(phi / 2) of the fold at every edge of every facet, valley positive, 0 on the border."""
-    corner = model.vertices[model.facets]
-    along = np.roll(corner, -1, axis=1) - corner
-    along /= np.linalg.norm(along, axis=2, keepdims=True)
-    mine, other = model.normals[:, None], model.normals[neighbour]
-    sine = np.einsum("fkx,fkx->fk", np.cross(mine, other), along)
-    cosine = np.einsum("fkx,fkx->fk", np.broadcast_to(mine, other.shape), other)
-    # seen along an edge with its facet on the left, a valley turns the right one's normal to it
-    return np.where(neighbour < 0, 0.0, np.tan(np.arctan2(-sine, cosine) / 2))
+def _directions(vertices: np.ndarray, sides: Sides) -> np.ndarray:
+    along = vertices[sides.stop] - vertices[sides.start]
+    return along / np.linalg.norm(along, axis=1, keepdims=True)
 
 
-def _end_points(model: ExportModel, neighbour: np.ndarray, slot: np.ndarray) -> np.ndarray:
-    """Return the ends of every facet's edges on both offset planes, (2, F, 3, 2, 3)."""
-    corner = model.vertices[model.facets]
-    along = np.roll(corner, -1, axis=1) - corner
-    along /= np.linalg.norm(along, axis=2, keepdims=True)
-    inward = np.cross(model.normals[:, None], along)
-    half = model.thickness[:, None] / 2
-    tangent = fold_tangents(model, neighbour)
+def _end_points(vertices: np.ndarray, sides: Sides) -> np.ndarray:
+    """Return the ends of every side on both offset planes, (2, H, 2, 3)."""
+    along, half = _directions(vertices, sides), sides.thickness / 2
+    inward = np.cross(sides.normal, along)
+    tangent, twin = fold_tangents(vertices, sides), sides.twin
     points = []
     for side in (1.0, -1.0):
-        shift = side * half * tangent  # of the edge's line into the facet
-        start, stop = _lengths(along, inward, shift)
+        shift = side * half * tangent  # of the side's line into its face
+        start, stop = _lengths(along, inward, shift, sides)
         start, stop = (
-            np.where(neighbour < 0, own, (own + other[neighbour, slot]) / 2)
+            np.where(twin < 0, own, (own + other[twin]) / 2)
             for own, other in ((start, stop), (stop, start))
         )
-        base = shift[..., None] * inward + (side * half)[..., None] * model.normals[:, None]
-        first = corner + start[..., None] * along + base
-        last = np.roll(corner, -1, axis=1) - stop[..., None] * along + base
-        points.append(np.stack([first, last], axis=2))
+        base = shift[:, None] * inward + (side * half)[:, None] * sides.normal
+        first = vertices[sides.start] + start[:, None] * along + base
+        last = vertices[sides.stop] - stop[:, None] * along + base
+        points.append(np.stack([first, last], axis=1))
     return np.stack(points)
 
 
 def _lengths(
-    along: np.ndarray, inward: np.ndarray, shift: np.ndarray
+    along: np.ndarray, inward: np.ndarray, shift: np.ndarray, sides: Sides
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return how much each edge (F, 3) loses at its start and its end where it meets its facet's
-    other two: d . inward = shift for both edges at a corner."""
-    before = np.roll(np.arange(3), 1)
-    cosine = np.einsum("fkx,fkx->fk", inward[:, before], inward)
-    sine = np.einsum("fkx,fkx->fk", inward[:, before], along)
-    start = (shift[:, before] - cosine * shift) / sine
-    back = np.einsum("fkx,fkx->fk", inward, -along[:, before])
-    stop = (shift - cosine * shift[:, before]) / back
-    return start, np.roll(stop, -1, axis=1)
+    """Return how much each side (H,) loses at its start and its end where it meets its face's
+    sides beside it: d . inward = shift for both sides at a corner."""
+    lost = []
+    for other, sign in ((sides.before, 1.0), (sides.after, -1.0)):
+        cosine = np.einsum("hx,hx->h", inward[other], inward)
+        sine = np.einsum("hx,hx->h", inward[other], sign * along)
+        straight = np.abs(sine) < 1e-9
+        value = (shift[other] - cosine * shift) / np.where(straight, 1.0, sine)
+        lost.append(np.where(straight, 0.0, value))
+    return lost[0], lost[1]
 
 
-def _check(model: ExportModel, ends: _Ends) -> None:
-    """Refuse facets whose edges are used up by the mitres."""
-    corner = model.vertices[model.facets]
-    along = np.roll(corner, -1, axis=1) - corner
-    left = np.einsum("sfkx,fkx->sfk", ends.point[..., 1, :] - ends.point[..., 0, :], along)
-    bad = np.flatnonzero((left <= 0).any(axis=(0, 2)))
+def _check(model: ExportModel, sides: Sides, point: np.ndarray) -> None:
+    """Refuse faces whose sides are used up by the mitres."""
+    along = _directions(model.vertices, sides)
+    left = np.einsum("shx,hx->sh", point[:, :, 1] - point[:, :, 0], along)
+    bad = np.flatnonzero((left <= 0).any(axis=0))
     if len(bad):
-        panel = model.panels[model.facet_panel[bad[0]]]
+        panel = model.panels[sides.panel[bad[0]]]
         raise InputError(
             f"{model.design}: exports: solid: panel {panel.name}: {1000 * panel.thickness:g} mm: "
             "too thick for its folds, the mitres leave nothing of an edge"
         )
 
 
-def _sheets(number: np.ndarray) -> list[tuple[list[int], int]]:
-    top, bottom = number.reshape(2, number.shape[1], 6).tolist()
-    faces = [(ring, facet) for facet, ring in enumerate(top)]
-    return faces + [(ring[::-1], facet) for facet, ring in enumerate(bottom)]
-
-
-def _steps(number: np.ndarray, ends: _Ends) -> list[tuple[list[int], int]]:
+def _sheets(number: np.ndarray, sides: Sides) -> list[tuple[list[int], int]]:
+    """The offset faces: both ends of one side after the other, top and bottom."""
     faces = []
-    for facet, edge in np.argwhere(ends.neighbour >= 0).tolist():
-        other, own = int(ends.neighbour[facet, edge]), int(ends.slot[facet, edge])
-        if facet > other:
-            continue
-        for side in (0, 1):
-            (ax, ay), (by, bx) = number[side, facet, edge], number[side, other, own]
-            ring = [int(ay), int(ax), int(bx), int(by)]
-            faces.append((ring[::-1] if side else ring, facet))
+    for rows in np.split(np.arange(len(sides.face)), np.flatnonzero(np.diff(sides.face)) + 1):
+        faces.append((number[0, rows].ravel().tolist(), int(rows[0])))
+        faces.append((number[1, rows].ravel().tolist()[::-1], int(rows[0])))
     return faces
 
 
-def _walls(number: np.ndarray, middle: np.ndarray, ends: _Ends) -> list[tuple[list[int], int]]:
+def _steps(number: np.ndarray, sides: Sides) -> list[tuple[list[int], int]]:
+    """Faces in the halving planes, between neighbours of different thickness."""
     faces = []
-    for facet, edge in np.argwhere(ends.neighbour < 0).tolist():
-        (tx, ty), (bx, by) = number[:, facet, edge].tolist()
-        vx, vy = int(middle[facet, edge]), int(middle[facet, (edge + 1) % 3])
-        faces.append(([ty, tx, vx, bx, by, vy], facet))
+    for side in np.flatnonzero(sides.twin > np.arange(len(sides.twin))).tolist():
+        for level in (0, 1):
+            (ax, ay), (by, bx) = number[level, [side, sides.twin[side]]].tolist()
+            ring = [ay, ax, bx, by]
+            faces.append((ring[::-1] if level else ring, side))
     return faces
 
 
-def _corners(number: np.ndarray, middle: np.ndarray, ends: _Ends) -> list[tuple[list[int], int]]:
+def _walls(number: np.ndarray, middle: np.ndarray, sides: Sides) -> list[tuple[list[int], int]]:
+    faces = []
+    for side in np.flatnonzero(sides.twin < 0).tolist():
+        (tx, ty), (bx, by) = number[:, side].tolist()
+        vx, vy = int(middle[side]), int(middle[sides.after[side]])
+        faces.append(([ty, tx, vx, bx, by, vy], side))
+    return faces
+
+
+def _corners(number: np.ndarray, middle: np.ndarray, sides: Sides) -> list[tuple[list[int], int]]:
     """Caps around inner vertices, top and bottom, and what closes the wall at border vertices."""
-    faces, done = [], np.zeros(middle.shape, dtype=bool)
-    starts = np.argwhere(ends.neighbour < 0).tolist() + np.argwhere(ends.neighbour >= 0).tolist()
-    for facet, corner in starts:  # an edge k starts at corner k: border fans from their first facet
-        if done[facet, corner]:
+    faces, done = [], np.zeros(len(sides.start), dtype=bool)
+    border = sides.twin < 0  # a fan on the border is begun with its first face
+    for side in [*np.flatnonzero(border).tolist(), *np.flatnonzero(~border).tolist()]:
+        if done[side]:
             continue
-        fan, closed = _go_round(facet, corner, ends, done)
+        fan, closed = _go_round(side, sides, done)
         top, bottom = (
-            [int(n) for f, c in fan for n in (number[s, f, c, 0], number[s, f, (c + 2) % 3, 1])]
+            [int(n) for k in fan for n in (number[s, k, 0], number[s, sides.before[k], 1])]
             for s in (0, 1)
         )
         if closed:
-            faces += [(top, facet), (bottom[::-1], facet)]
+            faces += [(top, side), (bottom[::-1], side)]
             continue
-        hub = int(middle[facet, corner])
+        hub = int(middle[side])
         for chain in (top, bottom[::-1]):
-            faces += [([hub, a, b], facet) for a, b in itertools.pairwise(chain)]
+            faces += [([hub, a, b], side) for a, b in itertools.pairwise(chain)]
     return faces
 
 
-def _go_round(facet: int, corner: int, ends: _Ends, done: np.ndarray):
-    """Return the fan of (facet, corner) counter-clockwise from one of them, and if it closes."""
-    fan, first = [], (facet, corner)
+def _go_round(side: int, sides: Sides, done: np.ndarray) -> tuple[list[int], bool]:
+    """Return the sides that start at one vertex, counter-clockwise, and whether they close."""
+    fan, first = [], side
     while True:
-        fan.append((facet, corner))
-        done[facet, corner] = True
-        into = (corner + 2) % 3  # the edge that ends at this corner
-        facet, corner = int(ends.neighbour[facet, into]), int(ends.slot[facet, into])
-        if facet < 0:
-            return fan, False
-        if (facet, corner) == first:
-            return fan, True
+        fan.append(side)
+        done[side] = True
+        side = int(sides.twin[sides.before[side]])
+        if side < 0 or side == first:
+            return fan, side == first
 
 
-def _join(points: np.ndarray, faces, facet_panel: np.ndarray) -> Solid:
+def _join(points: np.ndarray, faces, side_panel: np.ndarray) -> Solid:
     """Merge points that coincide, and cut faces into triangles about their middle."""
     owner = _find_owners(points)
     triangles, panel, middles = [], [], []
-    for ring, facet in faces:
+    for ring, side in faces:
         ring = [int(owner[n]) for n in ring]
         ring = [n for k, n in enumerate(ring) if n != ring[k - 1]]
         if len(ring) < 3:
@@ -221,7 +191,7 @@ def _join(points: np.ndarray, faces, facet_panel: np.ndarray) -> Solid:
             triangles += [(a, ring[k - 1], middle) for k, a in enumerate(ring)]
         else:
             triangles.append((ring[2], ring[1], ring[0]))
-        panel += [int(facet_panel[facet])] * (len(triangles) - len(panel))
+        panel += [int(side_panel[side])] * (len(triangles) - len(panel))
     points = np.concatenate([points, np.array(middles).reshape(-1, 3)])
     used, index = np.unique(np.array(triangles)[:, ::-1], return_inverse=True)
     return Solid(points[used], index.reshape(-1, 3), np.array(panel))

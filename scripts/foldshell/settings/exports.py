@@ -3,8 +3,7 @@
 from foldshell.settings.field import Group, setting, settings_group
 
 FORMATS = (
-    "3dm", "ifc", "saf", "s2k", "inp", "opensees", "mesh", "solid", "vtu", "fold", "panels",
-    "nesting",
+    "3dm", "obj", "stl", "ply", "glb", "vtu", "fold", "panels", "nesting",
 )  # fmt: skip
 
 
