@@ -44,4 +44,4 @@ for FORMAT in FORMATS:
 
 rule export:
     input:
-        [file for name in names_of_tag(SETTINGS.study) for file in exported(name)],
+        lambda wildcards: [file for name in names_of_tag(SETTINGS.study) for file in exported(name)],
