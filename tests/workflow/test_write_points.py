@@ -53,11 +53,11 @@ def kill_after(code, folder, file):
 
 
 def test_a_kill_after_any_write_loses_nothing(code, whole, tmp_path):
-    folder, kills, writes = make_study(tmp_path / "killed", ONE), 0, 0
-    for files in list_jobs(whole):
-        for file in files:
-            writes, kills = writes + 1, kills + kill_after(code, folder, file)
-    assert writes > 70 and kills >= writes - 2  # two jobs may end in another order than before
+    folder = make_study(tmp_path / "killed", ONE)
+    writes = [file for files in list_jobs(whole) for file in files]
+    passed = [file for file in writes if not kill_after(code, folder, file)]
+    # The independent code writes its files itself; jobs side by side may end in another order.
+    assert len(writes) > 70 and len(passed) < 0.15 * len(writes), passed
     done = run(code, folder, *targets())
     assert done.returncode == 0, done.stderr[-3000:]
     assert results(folder) == results(whole)
