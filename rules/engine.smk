@@ -27,6 +27,11 @@ def is_target(*names):
     return known and bool(set(names) & set(map(str, workflow.dag_settings.targets)))
 
 
+def runs_here():
+    """Tell whether jobs run on this machine, and not by a cluster's executor."""
+    return workflow.local_exec if PRIVATE.has(workflow, "workflow", "local_exec") else True
+
+
 def main_snakefile():
     """Return the Snakefile that Snakemake was started with."""
     known = PRIVATE.has(workflow, "workflow", "main_snakefile")

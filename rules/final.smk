@@ -5,10 +5,10 @@ rule group:
     input:
         mesh=rules.mesh.output.mesh,
         analyses=iterations,
+        analysis_arrays=arrays_of(iterations),
         library=code_inputs("group"),
     output:
-        json=f"{LOOP}/classes.json",
-        arrays=f"{LOOP}/classes.npz",
+        **CLASSES,
     log:
         log_of("group"),
     benchmark:
@@ -17,9 +17,7 @@ rule group:
     conda:
         "../envs/foldshell.yaml"
     params:
-        **of_design("span_m"),
-        classes=SETTINGS.sizing.classes,
-        settings=of_stage("analyse"),
+        **LOOP_PARAMS["group"],
     message:
         "{wildcards.design}: thickness classes"
     script:
@@ -29,14 +27,11 @@ rule group:
 rule size:
     input:
         analyses=iterations,
-        classes=[rules.group.output.json, rules.group.output.arrays],
+        analysis_arrays=arrays_of(iterations),
+        classes=[CLASSES["json"], CLASSES["arrays"]],
         library=code_inputs("size"),
     output:
-        csv=f"{LOOP}/history.csv",
-        history=f"{LOOP}/history.xlsx",
-        design=f"{RESULTS}/{{design}}/design.xlsx",
-        final=f"{LOOP}/final.json",
-        arrays=f"{LOOP}/final.npz",
+        **FINAL,
     log:
         log_of("size"),
     benchmark:
@@ -45,8 +40,7 @@ rule size:
     conda:
         "../envs/foldshell.yaml"
     params:
-        design=lambda wildcards: BY_NAME[wildcards.design].to_row(),
-        settings=of_stage("size"),
+        **LOOP_PARAMS["size"],
     message:
         "{wildcards.design}: history and final state"
     script:

@@ -2,6 +2,44 @@
 
 import json
 
+CLASSES = {"json": f"{LOOP}/classes.json", "arrays": f"{LOOP}/classes.npz"}
+FINAL = {
+    "final": f"{LOOP}/final.json",
+    "arrays": f"{LOOP}/final.npz",
+    "csv": f"{LOOP}/history.csv",
+    "history": f"{LOOP}/history.xlsx",
+    "design": f"{RESULTS}/{{design}}/design.xlsx",
+}
+"""What the end of a loop leaves, by either way to run it."""
+LOOP_PARAMS = {
+    "start": {
+        **of_design("zigzag", "strip"),
+        "settings": of_stage("start"),
+        "settings_hash": decisions,
+    },
+    "analyse": {
+        **of_design("span_m", "zigzag", "strip"),
+        "settings": of_stage("analyse"),
+        "settings_hash": decisions,
+    },
+    "resize": {**of_design("zigzag", "strip"), "settings": of_stage("resize")},
+    "group": {
+        **of_design("span_m"),
+        "classes": SETTINGS.sizing.classes,
+        "settings": of_stage("analyse"),
+    },
+    "size": {
+        "design": lambda wildcards: BY_NAME[wildcards.design].to_row(),
+        "settings": of_stage("size"),
+    },
+}
+"""Parameters of the jobs of a loop."""
+
+
+def arrays_of(files):
+    """Return a function of the wildcards: the .npz beside each .json that another one returns."""
+    return lambda wildcards: [f"{path.removesuffix('.json')}.npz" for path in files(wildcards)]
+
 
 def previous_iteration(names):
     """Return a function of the wildcards: files of the iteration before, none for the first."""

@@ -16,9 +16,7 @@ rule start:
     conda:
         "../envs/foldshell.yaml"
     params:
-        **of_design("zigzag", "strip"),
-        settings=of_stage("start"),
-        settings_hash=decisions,
+        **LOOP_PARAMS["start"],
     message:
         "{wildcards.design}: start thickness"
     script:
@@ -41,9 +39,7 @@ checkpoint analyse:
     conda:
         "../envs/foldshell.yaml"
     params:
-        **of_design("span_m", "zigzag", "strip"),
-        settings=of_stage("analyse"),
-        settings_hash=decisions,
+        **LOOP_PARAMS["analyse"],
     message:
         "{wildcards.design}: analysis {wildcards.iteration}"
     script:
@@ -68,8 +64,7 @@ rule resize:
     conda:
         "../envs/foldshell.yaml"
     params:
-        **of_design("zigzag", "strip"),
-        settings=of_stage("resize"),
+        **LOOP_PARAMS["resize"],
     message:
         "{wildcards.design}: thickness {wildcards.iteration}"
     script:

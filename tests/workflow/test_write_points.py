@@ -37,10 +37,10 @@ def list_jobs(folder):
     return jobs
 
 
-def kill_after(code, folder, file):
+def kill_after(code, folder, file, loop):
     """Start, with a kill of everything once `file` has been written; tell whether it came to it."""
     process = subprocess.Popen(
-        [*command(code, *targets()), "--cores", "1"],
+        [*command(code, *targets()), "--cores", "1", "--config", f"loop={loop}"],
         cwd=folder,
         env=os.environ | {"FOLDSHELL_FAULT_POINT": file},
         stdout=subprocess.DEVNULL,
@@ -52,12 +52,13 @@ def kill_after(code, folder, file):
     return code == -9
 
 
-def test_a_kill_after_any_write_loses_nothing(code, whole, tmp_path):
+@pytest.mark.parametrize("loop", ["steps", "whole"])
+def test_a_kill_after_any_write_loses_nothing(code, whole, tmp_path, loop):
     folder = make_study(tmp_path / "killed", ONE)
     writes = [file for files in list_jobs(whole) for file in files]
-    passed = [file for file in writes if not kill_after(code, folder, file)]
+    passed = [file for file in writes if not kill_after(code, folder, file, loop)]
     # The independent code writes its files itself; jobs side by side may end in another order.
     assert len(writes) > 70 and len(passed) < 0.15 * len(writes), passed
-    done = run(code, folder, *targets())
+    done = run(code, folder, *targets(), "--config", f"loop={loop}")
     assert done.returncode == 0, done.stderr[-3000:]
     assert results(folder) == results(whole)

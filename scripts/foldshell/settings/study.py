@@ -65,6 +65,12 @@ class Settings(Group):
         meaning="Tag of the designs that the default target runs; what is said over all of them "
         "stands in `results/studies/<study>/`. `--config study=TAG` takes another one.",
     )
+    loop: str = setting(
+        "auto", choices=("auto", "steps", "whole"), stages=(),
+        meaning="How the thickness loop runs, with the same files and results: a job for each "
+        "analysis and each workbook (steps), or one job for each design (whole). auto takes steps "
+        "on this machine for a study of up to 60 designs, else whole.",
+    )  # fmt: skip
     defaults: DesignColumns
     pattern: Pattern
     fold: Fold

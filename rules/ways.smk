@@ -1,0 +1,28 @@
+# Which way the thickness loop runs: a job for each step, or one for each design.
+
+STEPS_MAX = 60
+"""Designs up to which the rules of the loop run one by one: Snakemake's own time grows with the
+square of the designs then."""
+CHOSEN = "FOLDSHELL_LOOP"
+
+
+def choose_loop():
+    """Return how loops run, `steps` or `whole`; jobs elsewhere take what their run has chosen."""
+    if SETTINGS.loop != "auto":
+        return SETTINGS.loop
+    if CHOSEN not in os.environ:
+        count = len(names_of_tag(SETTINGS.study))
+        os.environ[CHOSEN] = "steps" if count <= STEPS_MAX and runs_here() else "whole"
+        if os.environ[CHOSEN] == "whole":
+            print(f"loop: whole, one job for each of {count} designs", file=sys.stderr)
+    return os.environ[CHOSEN]
+
+
+if choose_loop() == "whole":
+
+    include: "whole.smk"
+
+else:
+
+    include: "sizing.smk"
+    include: "final.smk"

@@ -1,0 +1,45 @@
+# The thickness loop as one job for each design: the same files as by the rules of sizing.smk and
+# final.smk, which it stands for. For clusters, large tables and searches.
+
+from foldshell.files.edits import is_edited
+
+
+def given(values):
+    """Return a function of the wildcards: parameters, those that are functions called."""
+    return lambda wildcards: {
+        job: {name: v(wildcards) if callable(v) else v for name, v in params.items()}
+        for job, params in values.items()
+    }
+
+
+def edited_workbooks(wildcards):
+    """Return a list of the workbooks that a person has edited, as an input: its name tells their
+    content, so that a loop runs again when one is edited or put back."""
+    folder = Path(f"{RESULTS}/{wildcards.design}/sizing")
+    edited = [path for path in sorted(folder.glob("[0-9][0-9]/thickness.xlsx")) if is_edited(path)]
+    return write_content_list(edited, ".snakemake/library")
+
+
+rule size:
+    input:
+        **{f"code_{name}": code_inputs(name) for name in LOOP_PARAMS},
+        mesh=rules.mesh.output.mesh,
+        edits=edited_workbooks,
+        library=code_inputs("whole_loop"),
+    output:
+        **FINAL,
+        classes=CLASSES["json"],
+        class_arrays=CLASSES["arrays"],
+    log:
+        log_of("size"),
+    benchmark:
+        timing("size")
+    conda:
+        "../envs/foldshell.yaml"
+    params:
+        scripts=SCRIPTS,
+        jobs=given(LOOP_PARAMS),
+    message:
+        "{wildcards.design}: whole thickness loop"
+    script:
+        "../scripts/whole_loop.py"
