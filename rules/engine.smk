@@ -29,13 +29,13 @@ def is_target(*names):
 
 def runs_here():
     """Tell whether jobs run on this machine, and not by a cluster's executor."""
-    return workflow.local_exec if PRIVATE.has(workflow, "workflow", "local_exec") else True
+    return not PRIVATE.has(workflow, "workflow", "local_exec") or workflow.local_exec
 
 
 def main_snakefile():
     """Return the Snakefile that Snakemake was started with."""
-    known = PRIVATE.has(workflow, "workflow", "main_snakefile")
-    return workflow.main_snakefile if known else f"{workflow.basedir}/Snakefile"
+    PRIVATE.has(workflow, "workflow", "main_snakefile")
+    return getattr(workflow, "main_snakefile", f"{workflow.basedir}/Snakefile")
 
 
 def find_analysis(**wildcards):
@@ -104,15 +104,12 @@ if (
 onstart:
     RUN["started"] = True
     claim_results(RESULTS, SETTINGS.designs)
-    dag, scheduler = workflow.dag, workflow.scheduler
-    if workflow.local_exec:
-        # To keep to 100 starts a second, Snakemake 9 wakes its scheduler every second once more for
-        # each job that has ended: half a core after some hundred jobs, and no need on one machine.
+    if runs_here():
+        dag, scheduler = workflow.dag, workflow.scheduler
+        # The limit of 100 starts a second takes half a core after some hundred jobs.
         if PRIVATE.has(scheduler, "scheduler", "job_rate_limiter"):
             scheduler.job_rate_limiter = None
-        # After each analysis Snakemake asks anew of every job that it did not run itself whether it
-        # must run: beside a finished study that takes longer than the analysis. What is up to date
-        # before the first job starts stays so. Progress counts it as done.
+        # Jobs that are up to date at the start stay so: to ask them anew takes longer than a job.
         done = PRIVATE.has(scheduler, "scheduler", "finished_jobs")
         if PRIVATE.has(dag, "dag", "_finished _needrun _len") and done:
             current = {job for job in dag.jobs if not dag.needrun(job)}
