@@ -1,5 +1,5 @@
-# The only file that knows private names of Snakemake: what its public interfaces do not reach, or
-# not at this speed. A run goes on without a name that is gone and says so in one line; a test fails.
+# The only file that knows private names of Snakemake, for what its interfaces do not reach. A run goes
+# on without a name that is gone and says so in one line; a test fails.
 
 import inspect
 import time
@@ -15,8 +15,7 @@ from foldshell.engine.name_check import NameCheck
 from foldshell.engine.preload import MODULES, POOLS
 from foldshell.settings.places import claim_results
 
-SERVERS = []  # the fork server, once the first job may start
-PRIVATE = NameCheck()
+SERVERS, PRIVATE = [], NameCheck()  # the fork server, once the first job may start
 SCRIPT_FIELDS = "conda_env container_img env_modules shadow_dir rulename wildcards log bench_record"
 RECORD_FIELDS = "running_time cpu_time cpu_usage max_rss data_collected"
 
