@@ -28,6 +28,7 @@ REACTIONS = {
 
 def run(folder, **options):
     """Write a small case and its sheet; return the text of the page and the data."""
+    design = DESIGN | options.pop("design", {})
     paths, pictures = write_files(folder, **options)
     write_json(paths["final"], final_of(buckling_factor={"S1": 3.0, "S2": 2.0, "D2": 4.0}))
     write_json(paths["comparison"], REACTIONS)
@@ -36,7 +37,6 @@ def run(folder, **options):
         "study": {"subdivisions": [4, 12], "reference": {"order": 7}, "combinations": {}},
     })  # fmt: skip
     paths |= {"utilization": pictures["utilization"]}
-    design = DESIGN | options.pop("design", {})
     html, data = folder / "sheet.html", folder / "sheet.json"
     sheet.main(paths, html, data, design=design, settings=SETTINGS)
     return html.read_text(encoding="utf-8"), read_json(data)
@@ -74,7 +74,7 @@ def test_hostile_texts_stay_texts(tmp_path):
     pytest.importorskip("typst")
     text, data = run(tmp_path, design={"surface": EVIL, "pattern": EVIL})
     assert "<img src=x" not in text
-    data["reason"] = data["title"] = EVIL
+    data["reason"] = data["title"] = data["warning"] = EVIL
     write_json(tmp_path / "sheet.json", data)
     sheet_pdf.main(tmp_path / "sheet.json", tmp_path / "utilization.png", tmp_path / "sheet.pdf")
     assert (tmp_path / "sheet.pdf").read_bytes().startswith(b"%PDF")

@@ -75,6 +75,7 @@ def make_sheet(files: SheetFiles, view: DesignView, settings: StageSettings) -> 
         "governing": governing.words if governing else "no check has a value",
         "checks": [_bar(check) for check in files.checks],
         "tables": {name: list_texts(table) for name, table in tables.items() if table.rows},
+        "warning": files.final.warning or "",
         "edited": files.final.edited,
         "settings_hash": files.final.settings_hash,
     }
@@ -153,7 +154,6 @@ def _quality(files: SheetFiles) -> Table:
         rows.append(("mesh error", f"{100 * convergence.mesh_error:.2f} %"))
     if convergence.buckling_mesh_error is not None:
         rows.append(("mesh error of buckling", f"{100 * convergence.buckling_mesh_error:.2f} %"))
-    rows.append(("warnings of the model", files.final.warning or "none"))
     if files.final.reaction_imbalance is not None:
         rows.append(("reactions against loads", f"{files.final.reaction_imbalance:.1e}"))
     return make_table(("what", "result"), rows)

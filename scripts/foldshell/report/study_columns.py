@@ -85,7 +85,7 @@ def judge(text: str) -> str:
 
 
 def count_verdicts(rows: Sequence[SummaryRow]) -> dict[str, list[tuple[str, int, str]]]:
-    """Return how many designs have each verdict: of sizing, cross-check and engineering.
+    """Return how many designs have each verdict: of sizing, cross-check, engineering and model.
 
     A verdict is its words, the count, and good or bad; a kind that no design has is empty.
     """
@@ -94,8 +94,10 @@ def count_verdicts(rows: Sequence[SummaryRow]) -> dict[str, list[tuple[str, int,
         words: Counter(getattr(row, key, None) or "" for row in rows)
         for words, key in kinds.items()
     }
+    doubtful = sum(row.model_warnings is not None for row in rows)
+    model = [("with warnings", doubtful, "bad"), ("without warnings", len(rows) - doubtful, "")]
     return {
         words: [(text.replace("_", " "), count, judge(text))
                 for text, count in counts.most_common() if text]
         for words, counts in found.items()
-    }  # fmt: skip
+    } | {"model": [verdict for verdict in model if verdict[1]]}  # fmt: skip

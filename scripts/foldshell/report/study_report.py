@@ -142,6 +142,7 @@ def _make_card(
         "values": {key: cell.value for key, cell in row.items()},
         "kinds": {key: cell.kind for key, cell in row.items() if cell.kind},
         "governing": governing.words if governing else "no check has a value",
+        "warning": entry.row.model_warnings or "",
         "tags": [tag for tag in entry.row.tags.split(",") if tag],
         "pictures": {name: sheet["pictures"].get(entry.name, "") for name, sheet in tiles.items()},
     }
