@@ -18,6 +18,9 @@ def class_colours(model: ExportModel) -> dict[int, tuple[int, int, int]]:
 
 
 def panel_colours(model: ExportModel) -> np.ndarray:
-    """Return the colour of each panel, (P, 3) of 0 to 255."""
+    """Return the colour of each panel, (P, 3) of 0 to 255.
+
+    As whole numbers of red, green and blue.
+    """
     colours = class_colours(model)
     return np.array([colours[panel.thickness_class] for panel in model.panels], dtype=np.uint8)

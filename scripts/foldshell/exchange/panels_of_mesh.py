@@ -26,6 +26,8 @@ def find_edges(vertices: np.ndarray, facets: np.ndarray) -> Edges:
 
     Each edge runs as in its first facet, which is on its left. An edge of more than two facets is
     left once for each further one, with that facet alone on its left.
+
+    vertices (V, 3) m.
     """
     start, end = facets.ravel(), np.roll(facets, -1, axis=1).ravel()
     opposite = np.roll(facets, -2, axis=1).ravel()
@@ -51,7 +53,10 @@ def find_edges(vertices: np.ndarray, facets: np.ndarray) -> Edges:
 
 
 def find_loops(edges: Edges, facet_panel: np.ndarray) -> dict[int, np.ndarray]:
-    """Return the corners (k,) of each panel, counter-clockwise: its edges one after the other."""
+    """Return the corners (k,) of each panel, counter-clockwise: its edges one after the other.
+
+    As numbers of vertices.
+    """
     left, right = facet_panel[edges.left], np.where(edges.right < 0, -1, facet_panel[edges.right])
     follow: dict[int, dict[int, int]] = {}
     for (a, b), one, two in zip(edges.ends.tolist(), left.tolist(), right.tolist(), strict=True):

@@ -194,6 +194,8 @@ def exact_slide(first: np.ndarray, second: np.ndarray) -> float:
 
     The difference of both profiles is concave and linear between corners, so its maximum is at a
     corner's height.
+
+    All in one unit of length.
     """
     low = max(first[:, 1].min(), second[:, 1].min())
     high = min(first[:, 1].max(), second[:, 1].max())

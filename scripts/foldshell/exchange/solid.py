@@ -53,7 +53,9 @@ def thicken(model: ExportModel) -> Solid:
 
 
 def fold_tangents(vertices: np.ndarray, sides: Sides) -> np.ndarray:
-    """tan(phi / 2) of the fold at every side, valley positive, 0 on the border."""
+    """tan(phi / 2) of the fold at every side (S,), valley positive, 0 on the border; vertices (V,
+    3) m.
+    """
     along = _directions(vertices, sides)
     mine, other = sides.normal, sides.normal[sides.twin]
     sine = np.einsum("hx,hx->h", np.cross(mine, other), along)
