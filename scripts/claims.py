@@ -7,7 +7,7 @@ from typing import Any
 from foldshell.claims.design_result import make_comparer
 from foldshell.claims.gather import Sources, read_sources
 from foldshell.claims.sensitivity import describe_variants
-from foldshell.claims.study import judge_study, list_runs, write_spread
+from foldshell.claims.study import judge_study, list_runs, write_spread, write_warnings
 from foldshell.claims.words import write_claims
 from foldshell.engine.job import run_job
 from foldshell.files.whole import atomic_path
@@ -41,9 +41,10 @@ def main(
     claims = judge_study(*found, make_comparer(given.sizing))
     write_records(json_path, claims)
     write_rows(runs_path, SensitivityRow, list_runs(found.variants))
+    warnings = write_warnings(found.design_results)
     spread = write_spread(found.variants, found.design_results, describe_variants())
     with atomic_path(page_path) as temporary:
-        temporary.write_text(write_claims(claims, spread), encoding="utf-8")
+        temporary.write_text(write_claims(claims, warnings + spread), encoding="utf-8")
 
 
 if "snakemake" in globals():

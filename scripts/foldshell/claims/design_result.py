@@ -62,7 +62,8 @@ class DesignResult:
 
     `values` are the measures of its state, of a sheet that was only folded those of its geometry;
     `errors` the relative mesh error and cross-check difference of displacement, utilization and
-    buckling (None where unknown), `panels` (2, P) planarity and utilization.
+    buckling (None where unknown), `panels` (2, P) planarity and utilization, `warning` what theory
+    or mesh does not hold of its final state.
     """
 
     row: DesignRow
@@ -70,6 +71,7 @@ class DesignResult:
     errors: Mapping[str, tuple[float | None, float | None]] = field(default_factory=dict)
     quality: QualityRecord | None = None
     panels: np.ndarray | None = None
+    warning: str | None = None
 
     def measure(self, quantity: str) -> float | None:
         """Return a quantity by its name, None where it was not measured."""

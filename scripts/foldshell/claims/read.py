@@ -65,7 +65,7 @@ def read_design_result(
     if used is not None and fold.values.depth is not None:
         planarity = read_arrays(folder / "folded/folded.npz")["planarity"]
         final = replace(final, panels=np.stack([planarity, used]))
-    return final, start
+    return replace(final, warning=last[0].warning), start
 
 
 def read_variant(design_result: DesignResult, path: str | Path) -> DesignResult:

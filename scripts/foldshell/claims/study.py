@@ -138,6 +138,15 @@ def write_spread(
     )
 
 
+def write_warnings(design_results: Sequence[DesignResult]) -> str:
+    """Return the section on final states that theory or mesh does not hold, nothing for none."""
+    rows = [[one.name, one.warning] for one in design_results if one.warning]
+    if not rows:
+        return ""
+    words = "Numbers of these designs stand above all the same; docs/shell.md says what a bound is."
+    return f"## Models in doubt\n\n{words}\n\n" + make_table(["design", "warning"], rows) + "\n"
+
+
 MARKS = {
     "converged": "c",
     "at_minimum_thickness": "m",

@@ -8,6 +8,7 @@ from foldshell.claims.kinematics import judge_foldability
 from foldshell.claims.limits import judge_folds
 from foldshell.claims.statement import Claim, describe_claim
 from foldshell.claims.structure import judge_supports
+from foldshell.claims.study import write_warnings
 from foldshell.claims.words import join_names, write_findings, write_section
 from foldshell.records.claims import Dependence
 from foldshell.records.measures import FlatEqualRecord
@@ -77,3 +78,11 @@ def test_flat_sheets_have_a_row_each():
     section = write_section(describe_claim(claim))
     assert "| flat-sheet | 40 x 41.5 | 50 | 80 | unstable | 2 | - |" in section
     assert section.startswith("## C13: holds")
+
+
+def test_designs_whose_model_is_in_doubt_are_listed_on_the_page():
+    sound, doubtful = make_design_result(), make_design_result(strip=17)
+    assert write_warnings([sound]) == ""
+    text = write_warnings([sound, replace(doubtful, warning="3 of 210 panels are thick")])
+    assert f"| {doubtful.name} | 3 of 210 panels are thick |" in text
+    assert sound.name not in text.replace(doubtful.name, "")
