@@ -9,7 +9,7 @@ import numpy as np
 class Shape:
     """What a mode hands back: vertices and flat state (V, 3) [m], and how it ended.
 
-    `flat` is the crease pattern that was folded: given in paper and isometric mode, found in
+    `flat` is the crease pattern that was folded: given in elastic and isometric mode, found in
     exact and rigid mode. `residuals` are further measures of the mode, by name.
     """
 

@@ -40,7 +40,7 @@ def test_dead_band_grows_above_one_shrinks_below_the_band_and_keeps_between():
     assert new.thickness == pytest.approx([0.11, 0.1, 0.1, 0.1, 0.09])
 
 
-def test_literal_rule_shrinks_inside_the_band_too():
+def test_fully_stressed_shrinks_inside_the_band_too():
     new = fully_stressed(state([1.2, 0.8]), LIMITS)
     assert new.thickness == pytest.approx([0.11, 0.09])
 
