@@ -54,6 +54,10 @@ class Criteria:
         "largest utilization of the edge beam by the same measure, at most its limit",
         "-", left_out=True,
     )  # fmt: skip
+    buckling_factor: Criterion | None = entry(
+        "least buckling factor of all combinations, at least its limit; null where nothing is "
+        "compressed, or where it was not asked for", "-", left_out=True,
+    )  # fmt: skip
 
     def items(self) -> list[tuple[Entry, Criterion]]:
         """Return those that are asked for, each with what is said of it."""

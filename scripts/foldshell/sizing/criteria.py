@@ -15,11 +15,18 @@ STATIONARY_ITERATIONS = 3
 take an equal share of `volume_change_max_relative`. Of slow rules a single change says little."""
 
 
+AT_LEAST = ("utilization_min", "buckling_factor")
+"""Criteria whose value has to reach the limit; that of the others stays below it."""
+
+WHY_UNKNOWN = {"buckling_factor": "without analysis.second_order"}
+
+
 @dataclass(frozen=True)
 class IterationState:
     """What a verdict is made of. `utilization` (P,) by the chosen measure; `previous_*` are None
     in iteration 0, `previous_stationary` counts iterations in a row with a small change of volume;
-    `edge_beam` is the largest utilization of its panels, by the same measure; the allowed
+    `edge_beam` is the largest utilization of its panels, by the same measure; `buckling_factor` the
+    least of all combinations, inf where nothing is compressed, None where unknown; the allowed
     iterations count from `counted_from`, where a person last changed panels."""
 
     iteration: int
@@ -34,6 +41,7 @@ class IterationState:
     previous_thickness: np.ndarray | None
     previous_stationary: int
     edge_beam: float | None = None
+    buckling_factor: float | None = None
     counted_from: int = 0
 
 
@@ -155,9 +163,11 @@ def _describe(now, sizing: Sizing, criteria: Criteria, open_names: list[str]) ->
                 f"{len(now.utilization)} panels: {', '.join(map(str, worst))}{more}"
             )
         elif item.value is None:
-            words.append(f"{name} is not known before the second analysis")
+            words.append(
+                f"{name} is not known {WHY_UNKNOWN.get(name, 'before the second analysis')}"
+            )
         else:
-            relation = "below" if name == "utilization_min" else "not below"
+            relation = "below" if name in AT_LEAST else "not below"
             value, limit = _show_both(item)
             words.append(f"{name} {value} {relation} {limit}")
     return "; ".join(words)

@@ -149,6 +149,7 @@ def _judge(done: Analysed, volume: float) -> Verdict:
             previous_thickness=arrays.thickness if arrays else None,
             previous_stationary=before.stationary_iterations if before else 0,
             edge_beam=float(edge_beam.max()) if len(edge_beam) else None,
+            buckling_factor=result.buckling and float(result.buckling.factors.min()),
             counted_from=task.counted_from,
         ),
         sizing,
