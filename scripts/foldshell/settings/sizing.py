@@ -62,6 +62,11 @@ class Sizing(Group):
         0.01, above=0, maximum=1, stages=_VERDICT,
         meaning="The same relative to the volume, since 10 m3 never bites on small shells.",
     )  # fmt: skip
+    buckling_factor_min: float = setting(
+        0, minimum=0, maximum=1000, stages=_VERDICT,
+        meaning="Least value of the least buckling factor for a design to converge; 0 for no such "
+        "criterion, as in the paper.",
+    )  # fmt: skip
     thinning_buckling_factor_min: float = setting(
         1.5, minimum=0, maximum=1000, stages=_LOOP,
         meaning="No panel is made thinner while the least buckling factor is below this; the rule "

@@ -100,8 +100,8 @@ def _count_up(now: IterationState, sizing: Sizing) -> str:
 
 
 def evaluate_criteria(now: IterationState, sizing: Sizing) -> Criteria:
-    """Return those of Table 3, the relative change of volume, and the edge beam's where there is
-    one."""
+    """Return those of Table 3, the relative change of volume, the edge beam's where there is one,
+    and the buckling factor where it is asked for."""
     highest = float(now.utilization.max())
     limit = now.span / sizing.displacement_limit_span_over
     change = None if now.previous_volume is None else abs(now.volume - now.previous_volume)
@@ -116,7 +116,17 @@ def evaluate_criteria(now: IterationState, sizing: Sizing) -> Criteria:
         edge_beam_utilization=(
             None if beam is None else _below(beam, sizing.utilization_max, closed=True)
         ),
+        buckling_factor=_stable(now.buckling_factor, sizing.buckling_factor_min),
     )
+
+
+def _stable(factor: float | None, least: float) -> Criterion | None:
+    """Hold the least buckling factor against its limit; none where the limit is 0."""
+    if least == 0:
+        return None
+    known = factor is not None and np.isfinite(factor)
+    met = factor is not None and factor >= least
+    return Criterion(value=factor if known else None, limit=least, met=met)
 
 
 def name_measure(sizing: Sizing) -> str:

@@ -128,6 +128,23 @@ def test_table_3_is_met():
 
 
 @pytest.mark.parametrize(
+    ("factor", "met", "words"),
+    [
+        (4.0, True, "all criteria are met"),
+        (3.99, False, "buckling_factor 3.99 below 4"),
+        (np.inf, True, "all criteria are met"),  # nothing is compressed
+        (None, False, "buckling_factor is not known without analysis.second_order"),
+    ],
+)
+def test_a_least_buckling_factor_is_a_criterion_where_asked_for(factor, met, words):
+    """0 leaves it out, as in the paper; at the limit it is met."""
+    assert judge_iteration(iteration(buckling_factor=0.5), STOP).criteria.buckling_factor is None
+    found = judge_iteration(iteration(buckling_factor=factor), Sizing(buckling_factor_min=4.0))
+    assert found.criteria.buckling_factor.met is met
+    assert found.verdict == ("converged" if met else "continue") and found.reason == words
+
+
+@pytest.mark.parametrize(
     ("changes", "verdict", "words"),
     [
         ({"utilization": np.array([0.7, 1.2])}, "continue", "1 of 2 panels: 1"),
