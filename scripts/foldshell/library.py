@@ -121,7 +121,7 @@ def analyse_shell(shell: Shell, thickness: float | np.ndarray) -> SizedShell:
     """Analyse a shell of one thickness, or of one per panel (P,) m, to second order."""
     values = np.broadcast_to(np.asarray(thickness, float), shell.grid.panel.shape)
     task = IterationTask(0, shell.span, round_thickness(values))
-    record, arrays = shell.case.run(task)
+    record, arrays = shell.case.run(task, alone=True)
     return _gather(shell, [record], arrays)
 
 

@@ -91,3 +91,13 @@ def test_a_shell_by_the_front_door_is_that_of_the_rules(tmp_path):
     sized = foldshell.size_shell(foldshell.mesh_shell(folded, "strip", settings))
     np.testing.assert_array_equal(sized.thickness, expected.arrays.thickness)
     assert sized.analyses == tuple(expected.analyses)  # the time they took does not count
+
+
+def test_an_analysis_by_the_front_door_says_what_its_model_does_not_hold():
+    """10 m of thickness on panels of 1 m is analysed as asked, and named."""
+    settings = foldshell.make_settings({"analysis": {"subdivisions": 1}})
+    target = foldshell.make_target("paraboloid", 8.0, 2.0)
+    folded = foldshell.fold_sheet(foldshell.make_sheet(target, 5, 6), target, settings=settings)
+    shell = foldshell.mesh_shell(folded, "all", settings)
+    for thickness, count in ((0.05, 0), (10.0, 2)):
+        assert len(foldshell.analyse_shell(shell, thickness).last.model_warnings) == count

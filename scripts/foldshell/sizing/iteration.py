@@ -68,9 +68,12 @@ class AnalysisCase:
     sizing: Sizing
     factor_min: float | None
 
-    def run(self, task: IterationTask) -> tuple[AnalysisRecord, AnalysisArrays]:
+    def run(
+        self, task: IterationTask, alone: bool = False
+    ) -> tuple[AnalysisRecord, AnalysisArrays]:
         """Analyse one thickness vector: what analysis.json and analysis.npz hold.
 
+        The last analysis of a loop, and one that stands `alone`, says what its model does not hold.
         With `factor_min` the arrays of an analysis after which the loop goes on hold the linearised
         constraints.
         """
@@ -79,8 +82,9 @@ class AnalysisCase:
         record, arrays = _describe(done), collect_arrays(done)
         if done.utilization is not None:
             record = describe_edge_beam(done, describe_sheet(done, record))
-        if not record.goes_on:
+        if alone or not record.goes_on:
             record = replace(record, model_warnings=find_warnings(done))
+        if not record.goes_on:
             arrays = add_final_fields(done, arrays)
         elif self.factor_min is not None and done.result.state == "ok":
             arrays = _add_constraints(done, self.factor_min, arrays)
