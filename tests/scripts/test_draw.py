@@ -52,7 +52,7 @@ def test_unstable_design_is_drawn(tmp_path):
 
 def test_thickness_of_another_design_is_refused(tmp_path):
     """19 thicknesses for 20 panels: one sentence, and no file."""
-    paths = write_case(tmp_path, thickness=np.full(19, 0.1))
+    paths = write_case(tmp_path, thickness=np.full(19, 0.1), utilization=None)
     with pytest.raises(InputError, match=r"final\.npz: thickness: \(19,\): one for each of 20"):
         run(tmp_path, paths)
     assert not (tmp_path / "figures").exists()
