@@ -3,7 +3,7 @@
 from foldshell.results.comparisons import explain_left_out
 from foldshell.settings.stages import FINAL_STATE
 
-LEFT_OUT = explain_left_out(design.to_row() for design in with_tags(SETTINGS.study))
+LEFT_OUT = explain_left_out(with_tags(SETTINGS.study))
 # Two halves, for two cores: nothing but the report comes after them.
 CHARTS = ["supports", "surface", "curvature", "axes"]
 CHARTS = [name for name in CHARTS if name not in LEFT_OUT]

@@ -4,8 +4,10 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from foldshell.engine.job import run_job
-from foldshell.files.whole import read_arrays, write_json
+from foldshell.files.whole import read_arrays
 from foldshell.loads.cases import make_load_cases
+from foldshell.records.files import write_record
+from foldshell.records.mesh_convergence import MeshConvergenceRecord
 from foldshell.results.mesh_convergence import estimate_errors, find_largest_errors, study_mesh
 from foldshell.settings.analysed import LOADED
 from foldshell.settings.crosscheck import Crosscheck
@@ -40,9 +42,11 @@ def main(
         make_edge_beam(*edge_beam),
     )
     errors = estimate_errors(study)
-    report = find_largest_errors(errors) | {"subdivisions": subdivisions}
-    write_json(study_path, report | {"errors": errors, "study": study})
-    write_json(primary_path, study)
+    record = MeshConvergenceRecord(
+        **find_largest_errors(errors), subdivisions=subdivisions, errors=errors, study=study
+    )
+    write_record(study_path, record)
+    write_record(primary_path, study)
 
 
 if "snakemake" in globals():

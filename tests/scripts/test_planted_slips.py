@@ -24,9 +24,9 @@ from crosscheck.primary import read_primary
 from crosscheck.system import SHEAR_FACTOR
 from crosscheck_models import DATA, write_model
 from foldshell.exchange.neutral_model import make_neutral_model
-from foldshell.files.whole import write_json
 from foldshell.loads.cases import make_load_cases
 from foldshell.loads.cases import surface_loads as primary_loads
+from foldshell.records.files import write_record
 from foldshell.results import mesh_convergence as mesh_convergence
 from foldshell.settings.make import make_settings
 from foldshell.settings.stage import read_stage
@@ -109,8 +109,8 @@ def run_primary(inputs, folder, monkeypatch):
         )  # fmt: skip
     # a wrong combination under the right name
     names = choose_combinations(SETTINGS)
-    study["combinations"] = dict(zip(names, study["combinations"].values(), strict=True))
-    write_json(folder / "primary.json", study)
+    found = dict(zip(names, study.combinations.values(), strict=True))
+    write_record(folder / "primary.json", replace(study, combinations=found))
     return read_primary(folder / "primary.json", names)
 
 

@@ -1,14 +1,13 @@
 """What the study's figures draw: rows of summary.csv, with fields of the final states."""
 
-import csv
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-from foldshell.files.errors import InputError
+from foldshell.records.summary import SummaryRow
+from foldshell.records.table import read_rows
 from foldshell.results.fields import cell_area
 from foldshell.results.state import DesignState, read_state
 from foldshell.settings.loads import Combinations
@@ -48,16 +47,8 @@ class StudyDesign:
 
 
 def read_summary(path: str | Path) -> list[StudyDesign]:
-    """Read summary.csv.
-
-    Raises
-    ------
-    InputError
-        for a column that is missing or a number that is none.
-    """
-    with Path(path).open(encoding="utf-8", newline="") as stream:
-        rows = list(csv.DictReader(stream))
-    return [_read_row(path, row) for row in rows]
+    """Read summary.csv; raises `InputError` for one that is damaged."""
+    return [_make_design(row) for row in read_rows(path, SummaryRow)]
 
 
 def read_states(
@@ -69,26 +60,16 @@ def read_states(
         yield design, read_state(design.name, *files, combinations)
 
 
-def _read_row(path: str | Path, row: Mapping[str, Any]) -> StudyDesign:
-    missing = {"design", "tags", "pattern", "surface", "support", "state", *NUMBERS} - set(row)
-    if missing:
-        raise InputError(f"{path}: header: no column {min(missing)}: it is needed")
-    number = {}
-    for name in NUMBERS:
-        try:
-            number[name] = float(row[name]) if row[name] else float("nan")
-        except ValueError:
-            raise InputError(
-                f"{path}: {row['design']}, {name}: {row[name]!r}: must be a number"
-            ) from None
+def _make_design(row: SummaryRow) -> StudyDesign:
+    numbers = {name: getattr(row, name) for name in NUMBERS}
     return StudyDesign(
-        name=row["design"],
-        tags=tuple(row["tags"].split(",")),
-        pattern=row["pattern"],
-        surface=row["surface"],
-        support=row["support"],
-        state=row["state"],
-        number=number,
+        name=row.design,
+        tags=tuple(row.tags.split(",")),
+        pattern=row.pattern,
+        surface=row.surface,
+        support=row.support,
+        state=row.state,
+        number={k: float("nan") if value is None else value for k, value in numbers.items()},
     )
 
 

@@ -1,9 +1,10 @@
 """Which charts over the designs of a study compare anything, told from the table of designs."""
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import Any, Protocol, TypeVar
+from typing import Protocol, TypeVar
 
+from foldshell.settings import design as design_table
 from foldshell.settings.design import SUPPORTS, SURFACES
 
 UNFOLDED = ("smooth", "flat")
@@ -75,12 +76,12 @@ COMPARISONS: dict[str, Comparison] = {
 }
 
 
-def make_table_design(row: Mapping[str, Any]) -> TableDesign:
-    """Return a plain row of designs.tsv as charts sort it."""
-    tags = tuple(row["tags"].split(","))
-    size = f"{row['span_m']:g}/{row['height_m']:g}"
-    density = f"{row['zigzag']}x{row['strip']}"
-    return TableDesign(tags, row["pattern"], row["surface"], row["support"], size, density)
+def make_table_design(design: design_table.Design) -> TableDesign:
+    """Return a design of the table as charts sort it."""
+    size = f"{design.span:g}/{design.height:g}"
+    density = f"{design.zigzag}x{design.strip}"
+    kind = design.pattern, design.surface, design.support
+    return TableDesign(design.tags, *kind, size, density)
 
 
 def sort_into_columns(
@@ -120,9 +121,9 @@ def choose_panel_surfaces(designs: Iterable[Layout]) -> list[str]:
     return sorted(found, key=lambda name: (_place(name, SURFACES), name))
 
 
-def explain_left_out(rows: Iterable[Mapping[str, Any]]) -> dict[str, str]:
-    """Return the charts that plain rows of designs.tsv give nothing to compare for, and why."""
-    designs = [make_table_design(row) for row in rows]
+def explain_left_out(table: Iterable[design_table.Design]) -> dict[str, str]:
+    """Return the charts that designs of the table give nothing to compare for, and why."""
+    designs = [make_table_design(one) for one in table]
     reasons = {
         name: f"no two designs tagged {comparison.tag} to compare"
         for name, comparison in COMPARISONS.items()

@@ -1,13 +1,19 @@
 """Mesh error of the headline numbers: one state on the mesh in use and on a reference mesh."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
-from typing import Any
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
 from foldshell.checks.utilization import area_percentile, compute_utilization, panel_utilization
 from foldshell.loads.cases import SurfaceLoad
+from foldshell.records.mesh_convergence import (
+    CombinationStudy,
+    MeshQuantities,
+    MeshStudy,
+    ReferenceMesh,
+)
+from foldshell.records.plain import to_plain
 from foldshell.settings.field import Factors
 from foldshell.settings.material import Material
 from foldshell.shell.analysis import analyse_shell, build_model
@@ -15,7 +21,7 @@ from foldshell.shell.edge_beams import EdgeBeam
 from foldshell.shell.mesh_files import mesh_folded_sheet, mesh_from_arrays
 from foldshell.shell.results import largest_downward, support_reactions, translations
 
-REFERENCE = {"order": 7}
+REFERENCE = ReferenceMesh(order=7)
 """What the mesh that gives the limit changes in the mesh in use: the element order. On the thin
 folded sheets of tests/verification it is within 1 % of 16 subdivisions in displacement, within 2 %
 in work; the 99th percentile of utilization stays 1 to 6 % too low. docs/crosscheck.md has long
@@ -25,7 +31,7 @@ EQUIVALENT = 12
 """Subdivisions that count for it where values are extrapolated: a choice on the safe side, which
 adds an eighth of the difference from 4 subdivisions."""
 
-SMOOTH_REFERENCE = {"subdivisions": 8}
+SMOOTH_REFERENCE = ReferenceMesh(subdivisions=8)
 """The mesh for sheets without folds: a thin dome as high as it is wide has bumps narrower than a
 facet, and one element of order 7 leaves them 5 % too low; 8 and 16 subdivisions agree."""
 
@@ -72,8 +78,8 @@ def study_mesh(
     cases: Sequence[SurfaceLoad],
     combinations: Factors,
     edge_beam: EdgeBeam | None = None,
-) -> dict[str, Any]:
-    """Return {quantity: [on the mesh in use, on the reference mesh]} by combination.
+) -> MeshStudy:
+    """Return each quantity on the mesh in use and on the reference mesh, by combination.
 
     Quantities are of first order; `second_order` holds the same to second order, where the
     structure does not buckle, and `buckling_factor` stands beside them. A mechanism has none of
@@ -89,25 +95,24 @@ def study_mesh(
     state = (folded, support, edge_beam, panel_thickness, material, cases, combinations)
     in_use = {"subdivisions": subdivisions}
     reference = choose_reference(folded, subdivisions)
-    finest = reference.get("subdivisions", EQUIVALENT)
-    report = {"subdivisions": [subdivisions, max(finest, 2 * subdivisions)], "reference": reference}
+    finest = max(reference.subdivisions or EQUIVALENT, 2 * subdivisions)
+    study = MeshStudy(subdivisions=(subdivisions, finest), reference=reference, combinations={})
     try:
-        meshes = [_analyse(mesh, *state) for mesh in (in_use, in_use | reference)]
+        meshes = [_analyse(mesh, *state) for mesh in (in_use, in_use | to_plain(reference))]
     except MechanismError as error:
-        return {**report, "combinations": {}, "reason": str(error)}
+        return replace(study, reason=str(error))
     found = {name: _pair(meshes[0][name], meshes[1][name]) for name in combinations}
-    return {**report, "combinations": found}
+    return replace(study, combinations=found)
 
 
-def choose_reference(folded: Mapping[str, np.ndarray], subdivisions: int) -> dict[str, Any]:
+def choose_reference(folded: Mapping[str, np.ndarray], subdivisions: int) -> ReferenceMesh:
     """Return how the reference mesh differs: of high order for folded sheets, else finer.
 
     `folded` holds the arrays of folded.npz: vertices (V, 3) m, facets (F, 3).
     """
     if measure_mean_fold(folded["vertices"], folded["facets"]) >= SHARP:
         return REFERENCE
-    finest = max(SMOOTH_REFERENCE["subdivisions"], 2 * subdivisions)
-    return SMOOTH_REFERENCE | {"subdivisions": finest}
+    return ReferenceMesh(subdivisions=max(SMOOTH_REFERENCE.subdivisions, 2 * subdivisions))
 
 
 def measure_mean_fold(vertices: np.ndarray, facets: np.ndarray) -> float:
@@ -130,31 +135,49 @@ def measure_mean_fold(vertices: np.ndarray, facets: np.ndarray) -> float:
     return float(bent.mean()) if len(bent) else 0.0
 
 
-def _pair(coarse: Mapping[str, Any], fine: Mapping[str, Any]) -> dict[str, Any]:
-    """Return [coarse, fine] of every quantity that both meshes give, at any depth."""
-    return {
-        name: _pair(coarse[name], fine[name])
-        if isinstance(coarse[name], Mapping)
-        else [coarse[name], fine[name]]
-        for name in coarse
-        if name in fine
-    }
+@dataclass(frozen=True)
+class _OnMesh:
+    """Quantities of one combination on one mesh, named as in `CombinationStudy`."""
+
+    displacement_down_max_m: float
+    displacement_max_m: float
+    work_knm: float
+    utilization_p99: float
+    utilization_panel_mean_max: float
+    reaction_sum_kn: tuple[float, ...]
+    load_sum_kn: tuple[float, ...]
+    buckling_factor: float | None = None
+    second_order: "_OnMesh | None" = None
 
 
-def estimate_errors(study: Mapping[str, Any]) -> dict[str, dict[str, float]]:
+def _pair(coarse: _OnMesh, fine: _OnMesh) -> CombinationStudy:
+    """Return every quantity that both meshes give."""
+    both = coarse.second_order and fine.second_order
+    second = _pair_quantities(coarse.second_order, fine.second_order) if both else None
+    return CombinationStudy(
+        **_pair_quantities(coarse, fine),
+        buckling_factor=(coarse.buckling_factor, fine.buckling_factor),
+        second_order=MeshQuantities(**second) if second else None,
+    )
+
+
+def _pair_quantities(coarse: _OnMesh, fine: _OnMesh) -> dict[str, tuple]:
+    names = [one.name for one in fields(MeshQuantities)]
+    return {name: (getattr(coarse, name), getattr(fine, name)) for name in names}
+
+
+def estimate_errors(study: MeshStudy) -> dict[str, dict[str, float]]:
     """Return the relative error of each quantity on the mesh in use, {combination: {quantity}}."""
-    coarse, fine = study["subdivisions"]
-    return {
-        name: {
-            quantity: _relative(
-                values[quantity][0],
-                extrapolate(values[quantity][0], values[quantity][1], fine / coarse),
-            )
-            for quantity in (*QUANTITIES, FACTOR)
-            if quantity in values
+    coarse, fine = study.subdivisions
+    found: dict[str, dict[str, float]] = {}
+    for name, values in study.combinations.items():
+        pairs = {quantity: getattr(values, quantity) for quantity in (*QUANTITIES, FACTOR)}
+        found[name] = {
+            quantity: _relative(pair[0], extrapolate(*pair, fine / coarse))
+            for quantity, pair in pairs.items()
+            if pair is not None
         }
-        for name, values in study["combinations"].items()
-    }
+    return found
 
 
 def find_largest_errors(errors: Mapping[str, Mapping[str, float]]) -> dict[str, float | None]:
@@ -171,7 +194,7 @@ def _relative(value: float, limit: float) -> float:
 
 
 def _analyse(mesh, folded, support, edge_beam, panel_thickness, material, cases, combinations):
-    """Analyse one mesh; return {combination: {quantity: value, second_order: {...}}}."""
+    """Analyse one mesh; return its quantities by combination."""
     arrays = mesh_folded_sheet(dict(folded), support, **mesh, edge_beam=edge_beam)
     held, fixed = arrays["supported_nodes"], arrays.get("fixed_thickness")
     model = build_model(
@@ -185,14 +208,14 @@ def _analyse(mesh, folded, support, edge_beam, panel_thickness, material, cases,
     values = _measure(model, first, thickness, material)
     for column, name in enumerate(result.names):
         factor = float(result.buckling.factors[column]) if result.buckling else 0.0
-        values[name]["buckling_factor"] = min(factor, LARGEST_FACTOR)
+        values[name] = replace(values[name], buckling_factor=min(factor, LARGEST_FACTOR))
     if result.state == "ok":
-        for name, quantities in _measure(model, result, thickness, material).items():
-            values[name]["second_order"] = quantities
+        for name, second in _measure(model, result, thickness, material).items():
+            values[name] = replace(values[name], second_order=second)
     return values
 
 
-def _measure(model, result, thickness, material) -> dict[str, dict[str, Any]]:
+def _measure(model, result, thickness, material) -> dict[str, _OnMesh]:
     """Return the quantities of each combination of a result."""
     used = compute_utilization(model, result.displacement, thickness, material).combination
     reactions = support_reactions(model, result, thickness, material).sum(axis=0)
@@ -200,18 +223,18 @@ def _measure(model, result, thickness, material) -> dict[str, dict[str, Any]]:
     moved = translations(model, result.displacement)
     work = (result.displacement * result.loads).sum(axis=0)
     return {
-        name: {
-            "displacement_down_max_m": largest_downward(
+        name: _OnMesh(
+            displacement_down_max_m=largest_downward(
                 model, result.displacement[:, [column]], [name]
             )[0],
-            "displacement_max_m": float(np.linalg.norm(moved[:, :, column], axis=1).max()),
-            "work_knm": float(work[column]),
-            "utilization_p99": area_percentile(model, used[column]),
-            "utilization_panel_mean_max": float(
+            displacement_max_m=float(np.linalg.norm(moved[:, :, column], axis=1).max()),
+            work_knm=float(work[column]),
+            utilization_p99=area_percentile(model, used[column]),
+            utilization_panel_mean_max=float(
                 panel_utilization(model, used[column].mean(axis=2), "panel_mean").max()
             ),
-            "reaction_sum_kn": reactions[:, column].tolist(),
-            "load_sum_kn": load[:, column].tolist(),
-        }
+            reaction_sum_kn=tuple(reactions[:, column].tolist()),
+            load_sum_kn=tuple(load[:, column].tolist()),
+        )
         for column, name in enumerate(result.names)
     }

@@ -1,6 +1,5 @@
 """Figures over all designs: sorting, histogram, and what is drawn for missing values."""
 
-import csv
 from dataclasses import replace
 
 import numpy as np
@@ -18,13 +17,14 @@ from foldshell.figures.planarity_chart import (
     group_medians,
 )
 from foldshell.figures.study_data import (
-    NUMBERS,
     StudyDesign,
     read_summary,
     utilization_edges,
     utilization_shares,
 )
 from foldshell.files.errors import InputError
+from foldshell.records.summary import SummaryRow
+from foldshell.records.table import write_rows
 from foldshell.results.comparisons import (
     COMPARISONS,
     explain_left_out,
@@ -32,6 +32,8 @@ from foldshell.results.comparisons import (
     sort_into_columns,
 )
 from foldshell.results.correlation import rank_correlation
+from foldshell.settings.design import Design
+from record_cases import make_summary
 
 
 def design(surface="arch", support="strip", height=10, strip=16, state="converged", **number):
@@ -85,13 +87,12 @@ def test_one_bar_is_no_chart():
     assert list(sort_into_columns(designs, COMPARISONS["curvature"])) == [
         "hypar, strip edges supported"
     ]
-    row = {"tags": "supports", "pattern": "miura", "surface": "arch", "span_m": 28.0,
-           "height_m": 10.0, "zigzag": 15, "strip": 16}  # fmt: skip
-    rows = [row | {"support": "all"}, row | {"support": "strip"}]
+    row = Design(name="a", surface="arch", support="all", tags=("supports",))
+    rows = [row, replace(row, support="strip")]
     assert set(explain_left_out(rows)) == {
         "surface", "curvature", "density_zigzag", "density_strip", "axes"
     }  # fmt: skip
-    plain = [one | {"tags": "mine", "pattern": "smooth"} for one in rows]
+    plain = [replace(one, tags=("mine",), pattern="smooth") for one in rows]
     assert len(explain_left_out(plain)) == 7
     assert explain_left_out(plain)["supports"] == "no two designs tagged supports to compare"
 
@@ -149,20 +150,10 @@ def test_study_without_such_designs_says_so(tmp_path):
     assert (tmp_path / "empty.png").stat().st_size > 1000
 
 
-def write_summary(path, **change):
-    """Write a summary of one row."""
-    row = {"design": "a", "tags": "x,supports", "pattern": "miura", "surface": "arch",
-           "support": "all", "state": "unstable",
-           **dict.fromkeys(NUMBERS, "1.5"), **change}  # fmt: skip
-    with path.open("w", newline="") as stream:
-        writer = csv.DictWriter(stream, row)
-        writer.writeheader()
-        writer.writerow(row)
-
-
 def test_summary_is_read_with_its_gaps(tmp_path):
     """An empty cell is nan, tags are split at commas."""
-    write_summary(tmp_path / "summary.csv", volume_per_area_m="")
+    row = make_summary(tags="x,supports", span_m=1.5)
+    write_rows(tmp_path / "summary.csv", SummaryRow, [row])
     (found,) = read_summary(tmp_path / "summary.csv")
     assert found.tags == ("x", "supports")
     assert np.isnan(found.number["volume_per_area_m"])
@@ -170,13 +161,15 @@ def test_summary_is_read_with_its_gaps(tmp_path):
 
 
 def test_damaged_summary_is_named(tmp_path):
-    """File, design, column, value and what is allowed."""
-    write_summary(tmp_path / "summary.csv", span_m="wide")
-    with pytest.raises(InputError, match=r"summary\.csv: a, span_m: 'wide': must be a number"):
-        read_summary(tmp_path / "summary.csv")
-    (tmp_path / "summary.csv").write_text("design,tags\na,x\n")
-    with pytest.raises(InputError, match="no column"):
-        read_summary(tmp_path / "summary.csv")
+    """File, row, column, value and what is allowed."""
+    path = tmp_path / "summary.csv"
+    write_rows(path, SummaryRow, [make_summary(span_m=1.5)])
+    path.write_text(path.read_text().replace("1.5", "wide"))
+    with pytest.raises(InputError, match=r"summary\.csv: row 1: span_m: 'wide': must be a number"):
+        read_summary(path)
+    path.write_text("design,tags\na,x\n")
+    with pytest.raises(InputError, match="row 1: pattern: is missing"):
+        read_summary(path)
 
 
 def test_rank_correlation_sees_order_alone():

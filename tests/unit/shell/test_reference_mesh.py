@@ -31,5 +31,5 @@ def test_flat_and_smooth_sheets_get_a_finer_mesh():
     assert measure_mean_fold(**_roof(0.0)) == 0
     assert choose_reference(_roof(0.0), 4) == SMOOTH_REFERENCE
     assert choose_reference(_roof(np.radians(8)), 4) == SMOOTH_REFERENCE
-    assert choose_reference(_roof(np.radians(8)), 6)["subdivisions"] == 12
+    assert choose_reference(_roof(np.radians(8)), 6).subdivisions == 12
     assert choose_reference(corrugated_sheet(), 4) == REFERENCE
