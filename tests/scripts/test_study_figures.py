@@ -28,7 +28,7 @@ def write_results(folder, **designs):
             path.rename(folder / name / place)
         rows.append({"design": name, "tags": "supports", "pattern": "miura", "surface": "arch",
                      "support": name, "state": "converged",
-                     **dict.fromkeys(NUMBERS, 1.0)})  # fmt: skip
+                     **dict.fromkeys(NUMBERS, 1)})  # fmt: skip
     with (folder / "summary.csv").open("w", newline="") as stream:
         writer = csv.DictWriter(stream, rows[0])
         writer.writeheader()

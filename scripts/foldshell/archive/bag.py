@@ -5,9 +5,8 @@ import os
 import shutil
 import tempfile
 import zipfile
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 import bagit
 
@@ -29,7 +28,7 @@ from foldshell.archive.seal import DIGITS, SEAL, hash_before_seal
 from foldshell.archive.words import describe_archive
 from foldshell.files.errors import InputError
 from foldshell.files.job_record import FOLDER, read_records
-from foldshell.files.whole import atomic_path
+from foldshell.files.whole import Json, atomic_path
 from foldshell.settings.archive import Archive
 
 TEXTS = (".log", ".tsv", ".txt")
@@ -39,7 +38,7 @@ EPOCH = (1980, 1, 1, 0, 0, 0)
 def write_archive(
     path: str | Path,
     study: Study,
-    config: Mapping[str, Any],
+    config: Json,
     tables: Sequence[Path],
     result_sha256: str,
     date: str,
@@ -82,7 +81,7 @@ def _copy_code(study: Study, bag: Path, options: Archive) -> tuple[str, str]:
     return export_code(study.project, bag / CODE, options.dirty)
 
 
-def _copy_config(bag: Path, config: Mapping[str, Any], tables: Sequence[Path]) -> None:
+def _copy_config(bag: Path, config: Json, tables: Sequence[Path]) -> None:
     """Write the settings of the run, with the tables and files they name beside them."""
     folder = bag / CONFIG
     folder.mkdir()
@@ -115,7 +114,7 @@ def _check_private(bag: Path, words: tuple[str, ...]) -> None:
         raise InputError(f"{found[0].replace(f'{bag}/', '')}: names this machine or its user")
 
 
-def _describe(study: Study, bag: Path, commit: str, date: str) -> dict[str, Any]:
+def _describe(study: Study, bag: Path, commit: str, date: str) -> Json:
     from importlib.metadata import version
 
     files = {

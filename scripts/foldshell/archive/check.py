@@ -6,7 +6,6 @@ import logging
 import zipfile
 from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import bagit
 import jsonschema
@@ -15,6 +14,7 @@ import numpy as np
 from foldshell.archive.content import LEFT_OUT, RESULTS
 from foldshell.archive.seal import is_sealed
 from foldshell.files.errors import InputError
+from foldshell.files.whole import Json
 from foldshell.records.catalogue import FILES, ResultFile
 
 SUM_TOLERANCE = 1e-9
@@ -96,7 +96,7 @@ def check_sums(results: Path) -> Iterator[str]:
         yield from _check_summary(results, summary)
 
 
-def _check_volume(home: Path, final: dict[str, Any]) -> Iterator[str]:
+def _check_volume(home: Path, final: Json) -> Iterator[str]:
     mesh, state = home / "shell/mesh.npz", home / "sizing/final.npz"
     if not (mesh.is_file() and state.is_file()):
         return

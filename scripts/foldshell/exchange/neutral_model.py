@@ -1,10 +1,10 @@
 """The neutral model: everything another FE program needs, in words and plain numbers."""
 
 from collections.abc import Mapping
-from typing import Any
 
 import numpy as np
 
+from foldshell.files.whole import Json
 from foldshell.settings.stage import StageSettings
 
 FORMAT = "foldshell-neutral-model 1"
@@ -18,7 +18,7 @@ def make_neutral_model(
     mesh: Mapping[str, np.ndarray],
     panel_thickness: np.ndarray,
     settings: StageSettings,
-) -> dict[str, Any]:
+) -> Json:
     """Return the neutral model as plain data in kN, m and kPa.
 
     Facets are flat triangles, counter-clockwise seen from above; every mesh node on a supported

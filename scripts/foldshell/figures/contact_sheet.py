@@ -4,7 +4,6 @@ import base64
 import io
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 from PIL import Image, ImageDraw
@@ -14,6 +13,7 @@ from foldshell.figures.figure_specs import crease_lines, support_marks
 from foldshell.figures.layout import INK, SOFT, Caption, draw_bar, fit_font, load_font
 from foldshell.figures.render import render_scenes
 from foldshell.figures.scene import Scene
+from foldshell.files.whole import Json
 from foldshell.results.colour_scales import MISSING, ColourScale, make_scale
 from foldshell.results.design_view import DesignView
 
@@ -86,7 +86,7 @@ def draw_sheet(tiles: Sequence[Tile], sheet: Sheet, columns: int = 6) -> Image.I
     return lay_out(tiles, list(sheet.views.values()), sheet.caption, columns)
 
 
-def pack_sheets(sheets: Mapping[str, Sheet]) -> dict[str, Any]:
+def pack_sheets(sheets: Mapping[str, Sheet]) -> Json:
     """Return words, scale and a small picture of each design (data URI), for the report."""
     return {
         name: {

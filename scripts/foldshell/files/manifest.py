@@ -7,11 +7,10 @@ damaged after its job is not taken for what the job made.
 from collections.abc import Iterable, Mapping
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
 
 from foldshell.files.errors import InputError
 from foldshell.files.job_record import FOLDER, FileState, JobRecord, state_of
-from foldshell.files.whole import hash_data, read_json, write_json
+from foldshell.files.whole import Json, hash_data, read_json, write_json
 
 FORMAT = "foldshell-manifest 1"
 NAME = "manifest.json"
@@ -78,7 +77,7 @@ def read_manifest(path: str | Path) -> Manifest:
         for a file that is none, one of another version, or one whose content was changed.
     """
     try:
-        content: dict[str, Any] = read_json(path)
+        content: Json = read_json(path)
         kind, digest = content["format"], content.pop("content_sha256")
     except (OSError, ValueError, KeyError, AttributeError, TypeError):
         raise InputError(f"{path}: damaged: it cannot be read as a manifest") from None

@@ -18,6 +18,9 @@ from foldshell.files.errors import InputError
 
 FAULT_POINT = os.environ.get("FOLDSHELL_FAULT_POINT", "")
 """For tests: the process group is killed once a file whose path ends so has been written."""
+Json = dict[str, Any]
+"""An object as a JSON file holds it, at the border alone: what is read becomes a record."""
+
 DIGITS = 12
 """Hexadecimal digits of the hash of all that decides a design, as tables and workbooks show it."""
 

@@ -7,12 +7,11 @@ have. Edge fold angles are in degrees, valley positive; own keys start with `fol
 
 import json
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from foldshell.files.errors import InputError
-from foldshell.files.whole import write_json
+from foldshell.files.whole import Json, write_json
 from foldshell.pattern.angles import measure_folds
 from foldshell.pattern.grid import Grid, build_grid, remove_creases
 from foldshell.pattern.sheet import Frame, Sheet
@@ -25,7 +24,7 @@ def write_fold(path: str | Path, sheet: Sheet, title: str) -> None:
     write_json(path, describe_sheet(sheet, title))
 
 
-def describe_sheet(sheet: Sheet, title: str) -> dict[str, Any]:
+def describe_sheet(sheet: Sheet, title: str) -> Json:
     """Build the FOLD dictionary of a sheet."""
     grid = sheet.grid
     rest = [] if sheet.kind in ("smooth", "flat") else [Frame(REST_TITLE, sheet.rest)]
@@ -54,7 +53,7 @@ def describe_sheet(sheet: Sheet, title: str) -> dict[str, Any]:
     }
 
 
-def _describe_frame(frame: Frame, grid: Grid) -> dict[str, Any]:
+def _describe_frame(frame: Frame, grid: Grid) -> Json:
     return {
         "frame_title": frame.title,
         "frame_classes": ["foldedForm"],
@@ -105,7 +104,7 @@ def read_fold(path: str | Path) -> Sheet:
     )
 
 
-def _read_grid(path: str | Path, data: dict[str, Any]) -> Grid:
+def _read_grid(path: str | Path, data: Json) -> Grid:
     zigzag_index, strip_index = (
         _read_integers(path, data, f"foldshell:{name}") for name in ("zigzag", "strip")
     )
@@ -131,7 +130,7 @@ def _read_grid(path: str | Path, data: dict[str, Any]) -> Grid:
     return grid
 
 
-def _read_integers(path: str | Path, data: dict[str, Any], key: str) -> np.ndarray:
+def _read_integers(path: str | Path, data: Json, key: str) -> np.ndarray:
     if key not in data:
         raise InputError(f"{path}: {key}: missing: a list of integers is needed")
     try:
@@ -143,7 +142,7 @@ def _read_integers(path: str | Path, data: dict[str, Any], key: str) -> np.ndarr
     return values
 
 
-def _read_vertices(path: str | Path, data: dict[str, Any], where: str, grid: Grid) -> np.ndarray:
+def _read_vertices(path: str | Path, data: Json, where: str, grid: Grid) -> np.ndarray:
     try:
         values = np.array(data.get("vertices_coords"), dtype=float)
     except (TypeError, ValueError):

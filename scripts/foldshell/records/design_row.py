@@ -1,10 +1,9 @@
 """The columns of designs.tsv as they stand in tables of results."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
 
 from foldshell.records.entry import COUNT, entries, entry
+from foldshell.settings.design import Row
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -34,7 +33,7 @@ class DesignRow:
         return (self.zigzag - 1) * (self.strip - 1)
 
 
-def make_design_row(columns: Mapping[str, Any]) -> DesignRow:
+def make_design_row(columns: Row) -> DesignRow:
     """Return the row of plain columns; sizes of an edge beam of 0, which is none, become None."""
     known = {key: columns[key] for key in entries(DesignRow) if key in columns}
     sizes = ("edge_beam_depth_m", "edge_beam_thickness_m")

@@ -1,8 +1,8 @@
 """What claims compare of one analysed state, and the files that hold it."""
 
 from dataclasses import dataclass
-from typing import Any
 
+from foldshell.files.whole import Json
 from foldshell.records.analysis import AnalysisRecord, ShellState, Verdict
 from foldshell.records.entry import COUNT, entry, same
 from foldshell.records.quality import QualityMeasures
@@ -65,7 +65,7 @@ class VariantRecord:
 
     design: str = entry("name of the design")
     variant: str = entry("name of the variant")
-    changes: dict[str, dict[str, Any]] = entry("settings that it changes, by group")
+    changes: dict[str, Json] = entry("settings that it changes, by group")
     measures: Measures = entry("its last state")
 
 

@@ -6,6 +6,7 @@ import typing
 from collections.abc import Mapping
 from typing import Any, TypeVar
 
+from foldshell.files.whole import Json
 from foldshell.records.entry import Entry, entries, strip_null
 from foldshell.settings.nearest import hint_nearest
 
@@ -30,7 +31,7 @@ def from_plain(kind: type[Record], data: Any, closed: bool = True) -> Record:
     return _to_record(kind, data, "", closed)
 
 
-def to_plain(record: Any) -> dict[str, Any]:
+def to_plain(record: Any) -> Json:
     """Return a record as plain data by key; `left_out` fields that are None are left out."""
     plain = {}
     for key, about in entries(type(record)).items():

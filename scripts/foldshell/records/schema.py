@@ -6,13 +6,13 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from foldshell.files.whole import write_json
+from foldshell.files.whole import Json, write_json
 from foldshell.records.catalogue import FILES, ResultFile
 from foldshell.records.entry import Entry, entries, strip_null
 
 DIALECT = "https://json-schema.org/draft/2020-12/schema"
 SCALARS = {float: "number", int: "integer", str: "string", bool: "boolean"}
-Schema = dict[str, Any]
+Schema = Json
 
 
 def write_schemas(folder: str | Path) -> list[Path]:

@@ -3,16 +3,17 @@
 import base64
 import zlib
 from collections.abc import Mapping, Sequence
-from typing import Any
 
 import numpy as np
+
+from foldshell.files.whole import Json
 
 STEPS = 65534
 """Steps between the least and the largest of real values; the number after them stands for nan."""
 LEVEL = 9
 
 
-def pack_arrays(arrays: Mapping[str, np.ndarray]) -> tuple[list[dict[str, Any]], str]:
+def pack_arrays(arrays: Mapping[str, np.ndarray]) -> tuple[list[Json], str]:
     """Return a header an array, and the deflated bytes of all of them as base64.
 
     Whole numbers keep their value in the least of uint8, uint16, uint32 that holds them. Real
@@ -34,7 +35,7 @@ def pack_arrays(arrays: Mapping[str, np.ndarray]) -> tuple[list[dict[str, Any]],
     return headers, base64.b64encode(zlib.compress(b"".join(parts), LEVEL)).decode("ascii")
 
 
-def unpack_arrays(headers: Sequence[Mapping[str, Any]], text: str) -> dict[str, np.ndarray]:
+def unpack_arrays(headers: Sequence[Json], text: str) -> dict[str, np.ndarray]:
     """Return the arrays by name: what the page does, for tests and other readers.
 
     Shapes, such as (P,) or (V, 3), stand in the headers.

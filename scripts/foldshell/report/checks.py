@@ -1,11 +1,10 @@
 """The checks of a design with the share of its limit that each uses; the largest one governs."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
-from foldshell.files.whole import read_json
+from foldshell.files.whole import Json, read_json
 from foldshell.records.analysis import AnalysisRecord, Criterion
 from foldshell.records.entry import Entry
 from foldshell.report.markup import format_number
@@ -35,7 +34,7 @@ class Check:
         return f"{self.name}: {format_number(self.value)}, limit {format_number(self.limit)}{share}"
 
 
-def list_checks(final: AnalysisRecord, engineering: Mapping[str, Any] | None = None) -> list[Check]:
+def list_checks(final: AnalysisRecord, engineering: Json | None = None) -> list[Check]:
     """Return the checks of a final state; those of checks/engineering.json follow, if given."""
     checks = [
         _of_criterion(about, item, final)
@@ -63,7 +62,7 @@ def _of_criterion(about: Entry, item: Criterion, final: AnalysisRecord) -> Check
     return Check(words, scale * item.value, scale * item.limit, ratio, item.met, where)
 
 
-def _of_engineering(name: str, item: Mapping[str, Any]) -> Check:
+def _of_engineering(name: str, item: Json) -> Check:
     value, limit, met = item.get("value"), item.get("limit"), item.get("met")
     unit = f" [{item['unit']}]" if item.get("unit") else ""
     places = [f"{words} {item[key]}" for key, words in (("combination", "combination"),
@@ -90,7 +89,7 @@ def find_governing(checks: Sequence[Check]) -> Check | None:
     return max(known, key=lambda check: check.ratio, default=None)
 
 
-def read_engineering(folder: str | Path) -> dict[str, Any] | None:
+def read_engineering(folder: str | Path) -> Json | None:
     """Return checks/engineering.json of a design's folder, None where there is none."""
     try:
         found = read_json(Path(folder, "checks/engineering.json"))

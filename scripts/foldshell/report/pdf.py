@@ -4,10 +4,9 @@ import json
 import tempfile
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from foldshell.files.errors import InputError
-from foldshell.files.whole import atomic_path
+from foldshell.files.whole import Json, atomic_path
 
 FOLDER = Path(__file__).parent / "templates"
 INSTALL = "pip install -r envs/sheets.lock"
@@ -37,6 +36,6 @@ def write_pdf(path: str | Path, template: str, files: Mapping[str, bytes]) -> No
         temporary.write_bytes(pdf)
 
 
-def pack_data(data: Mapping[str, Any]) -> bytes:
+def pack_data(data: Json) -> bytes:
     """Return plain data as the JSON that a template reads."""
     return json.dumps(data, allow_nan=False, ensure_ascii=False).encode()

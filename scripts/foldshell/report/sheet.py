@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from foldshell.files.whole import Json
 from foldshell.records.analysis import AnalysisRecord
 from foldshell.records.comparison import ComparisonRecord
 from foldshell.records.mesh_convergence import MeshConvergenceRecord
@@ -54,7 +55,7 @@ def find_marks(view: DesignView, final: AnalysisRecord) -> list[Mark]:
     return marks
 
 
-def make_sheet(files: SheetFiles, view: DesignView, settings: StageSettings) -> dict[str, Any]:
+def make_sheet(files: SheetFiles, view: DesignView, settings: StageSettings) -> Json:
     """Return the sheet as plain data: words and tables, each a header, rows of texts, and which
     columns hold numbers."""
     loads = describe_loads(settings)
@@ -81,7 +82,7 @@ def make_sheet(files: SheetFiles, view: DesignView, settings: StageSettings) -> 
     }
 
 
-def _bar(check: Check) -> dict[str, Any]:
+def _bar(check: Check) -> Json:
     """Return a check in words, and how long its bar is (0 to 1) with 1 / BAR_END at the limit."""
     ratio = check.ratio
     return {
@@ -159,7 +160,7 @@ def _quality(files: SheetFiles) -> Table:
     return make_table(("what", "result"), rows)
 
 
-def list_texts(table: Table) -> dict[str, Any]:
+def list_texts(table: Table) -> Json:
     """Return a table as plain data: header, which columns hold numbers, rows of texts."""
     return {
         "header": list(table.header),

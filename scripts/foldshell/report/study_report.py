@@ -6,11 +6,10 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
 
 from PIL import Image
 
-from foldshell.files.whole import read_json
+from foldshell.files.whole import Json, read_json
 from foldshell.records.analysis import AnalysisRecord, read_analysis
 from foldshell.records.claims import ClaimRecord
 from foldshell.records.comparison import ComparisonRecord, read_comparison
@@ -57,7 +56,7 @@ class StudyFiles:
 
     study: str
     designs: Sequence[DesignEntry]
-    tiles: Mapping[str, Any]
+    tiles: Json
     figures: Mapping[str, str | Path]
     claims: Sequence[ClaimRecord]
     verification: str
@@ -87,7 +86,7 @@ def _read_design(row: SummaryRow, folder: Path) -> DesignEntry:
 
 def write_study_report(
     files: StudyFiles,
-    settings: Mapping[str, Any],
+    settings: Json,
     provenance: Provenance,
     to_results: str,
     left_out: Mapping[str, str],
@@ -129,9 +128,7 @@ def write_study_report(
     return page
 
 
-def _make_card(
-    entry: DesignEntry, columns: Sequence[Column], to_results: str, tiles: Mapping[str, Any]
-) -> dict[str, Any]:
+def _make_card(entry: DesignEntry, columns: Sequence[Column], to_results: str, tiles: Json) -> Json:
     """Return what the report says of one design, as plain data for template and script."""
     governing = find_governing(entry.checks)
     row = make_row(entry.row, columns, governing)
@@ -148,7 +145,7 @@ def _make_card(
     }
 
 
-def _leave_out_first_picture(card: Mapping[str, Any]) -> dict[str, Any]:
+def _leave_out_first_picture(card: Json) -> Json:
     """Return a card without the picture that its page shows already, which is large."""
     pictures = dict(list(card["pictures"].items())[1:])
     return {**card, "pictures": pictures}

@@ -1,7 +1,6 @@
 """The summary of a study on A4, as plain data."""
 
-from typing import Any
-
+from foldshell.files.whole import Json
 from foldshell.report.checks import find_governing
 from foldshell.report.markup import format_number, make_table
 from foldshell.report.sheet import list_texts
@@ -15,7 +14,7 @@ SHOWN = (GOVERNING.key, "state", "engineering", "crosscheck", "volume_m3", "volu
 """Columns of the table, as far as the study has them; the governing check stands last."""
 
 
-def make_summary_sheet(files: StudyFiles) -> dict[str, Any]:
+def make_summary_sheet(files: StudyFiles) -> Json:
     """Return counts of verdicts, the worst checks, and a table with one row per design."""
     rows = [entry.row for entry in files.designs]
     columns = [column for column in choose_columns(rows) if column.key in SHOWN]

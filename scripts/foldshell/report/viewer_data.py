@@ -1,10 +1,10 @@
 """What the 3D view of a page shows: geometry, creases, fields with their scales, shapes."""
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
 
+from foldshell.files.whole import Json
 from foldshell.results.colour_scales import (
     RATIO_RANGE_MIN,
     ColourScale,
@@ -30,7 +30,7 @@ class ViewerData:
     """Arrays for `pack_arrays`, and what the page must know about them as plain data."""
 
     arrays: dict[str, np.ndarray]
-    facts: dict[str, Any]
+    facts: Json
 
 
 def make_viewer_data(view: DesignView) -> ViewerData:

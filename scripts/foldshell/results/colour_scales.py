@@ -3,9 +3,10 @@
 import math
 from dataclasses import dataclass
 from functools import lru_cache
-from typing import Any
 
 import numpy as np
+
+from foldshell.files.whole import Json
 
 MISSING = (205, 205, 205)
 ABOVE = (190, 0, 40)
@@ -63,7 +64,7 @@ class ColourScale:
         colours[~finite] = MISSING
         return colours
 
-    def describe(self, count: int) -> dict[str, Any]:
+    def describe(self, count: int) -> Json:
         """Return range, limit, `count` colours (hexadecimal) and ticks as plain data."""
         ticks = find_ticks(self.low, self.high)
         step = ticks[1] - ticks[0] if len(ticks) > 1 else self.high - self.low

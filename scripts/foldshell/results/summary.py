@@ -1,9 +1,9 @@
 """One row a design from its result files; every design has a row, whatever became of it."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
-from typing import Any, TypeVar
+from typing import TypeVar
 
 from foldshell.files.errors import InputError
 from foldshell.files.whole import DIGITS, hash_data
@@ -15,6 +15,7 @@ from foldshell.records.mesh_convergence import MeshConvergenceRecord
 from foldshell.records.quality import QualityRecord
 from foldshell.records.summary import SummaryRow
 from foldshell.results.history import collect_edited_panels
+from foldshell.settings.design import Row
 
 Record = TypeVar("Record")
 _ITERATIONS_MAX = 100
@@ -40,7 +41,7 @@ def hash_study(rows: Iterable[SummaryRow]) -> str:
     return hash_data({row.design: row.settings_hash or "" for row in rows})[:DIGITS]
 
 
-def make_summary_row(design: Mapping[str, Any], folder: str | Path) -> SummaryRow:
+def make_summary_row(design: Row, folder: str | Path) -> SummaryRow:
     """Return the row of one design from the files under `folder` (results/<design>).
 
     `design` holds its columns of designs.tsv. `state` is the verdict of the sizing, that of the

@@ -7,6 +7,7 @@ from typing import Any
 
 from foldshell.records.analysis import Criteria
 from foldshell.records.history import HistoryRow
+from foldshell.settings.field import Plain
 from foldshell.settings.loads import LOAD_CASES, Combinations
 from foldshell.workbook.history import add_history_sheets
 from foldshell.workbook.panels import FloatArray, IntArray, PanelGrid
@@ -40,7 +41,7 @@ class DesignReport:
     thickness_class: IntArray | None = None
     loads: Sequence[Line] = ()
     combinations: Combinations = field(default_factory=Combinations)
-    settings: Mapping[str, Any] = field(default_factory=dict)
+    settings: Plain = field(default_factory=dict)
     versions: Mapping[str, str] = field(default_factory=dict)
     sources: Sequence[str] = ()
     utilization_max: float = 1.0
@@ -125,7 +126,7 @@ def _add_loads(book: Any, styles: Styles, report: DesignReport) -> None:
 def add_notes(
     book: Any,
     styles: Styles,
-    settings: Mapping[str, Any],
+    settings: Plain,
     versions: Mapping[str, str],
     sources: Sequence[str],
 ) -> None:
@@ -139,9 +140,9 @@ def add_notes(
     sheet.write_string(1, 0, "units: kN, m, kPa, rad", styles["unit_text"])
 
 
-def flatten(values: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
+def flatten(values: Plain, prefix: str = "") -> Plain:
     """Return nested groups as {`group.key`: value}; lists become text."""
-    flat: dict[str, Any] = {}
+    flat: Plain = {}
     for key, value in values.items():
         if isinstance(value, Mapping):
             flat.update(flatten(value, f"{prefix}{key}."))

@@ -8,6 +8,7 @@ from foldshell.records.analysis import DECIDES
 from foldshell.records.history import HistoryRow
 from foldshell.workbook.styles import (
     Line,
+    Options,
     Styles,
     add_sheet,
     create_workbook,
@@ -109,7 +110,7 @@ def _make_chart(
     return chart
 
 
-def _style_line(colour: str) -> dict[str, Any]:
+def _style_line(colour: str) -> Options:
     fill = {"color": colour}
     return {
         "line": {"color": colour, "width": 1.5},
@@ -117,7 +118,7 @@ def _style_line(colour: str) -> dict[str, Any]:
     }
 
 
-def _make_iteration_axis(whole: int) -> dict[str, Any]:
+def _make_iteration_axis(whole: int) -> Options:
     """Return an axis from 0 to the last iteration, with ten marks or so at whole numbers."""
     whole = max(whole, 1)
     return {

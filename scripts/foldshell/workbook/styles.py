@@ -21,7 +21,9 @@ if TYPE_CHECKING:
 _CREATED = datetime(2000, 1, 1, tzinfo=UTC).replace(tzinfo=None)
 _BASE = {"font_name": "Arial", "font_size": 10, "valign": "vcenter"}
 _INK, _RULE = "#1F2937", "#9CA3AF"
-_FORMATS: dict[str, dict[str, Any]] = {
+Options = dict[str, object]
+"""Options of XlsxWriter."""
+_FORMATS: dict[str, Options] = {
     "title": {"bold": True, "font_size": 14, "font_color": _INK},
     "label": {"font_color": _INK},
     "text": {"align": "left", "indent": 1},

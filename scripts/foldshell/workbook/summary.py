@@ -1,12 +1,12 @@
 """Write `summary.xlsx`: one row per design below header and units, then overview and settings."""
 
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from foldshell.records.analysis import DECIDES
 from foldshell.records.summary import SummaryRow
+from foldshell.settings.field import Plain
 from foldshell.workbook.design import add_notes
 from foldshell.workbook.styles import add_sheet, create_workbook, mark_above
 from foldshell.workbook.tables import Column, write_records, write_table
@@ -22,7 +22,7 @@ _ENDINGS = [Column("state", "", "text", 24.0), Column("designs", "-", "integer",
 def write_summary(
     path: str | Path,
     rows: Sequence[SummaryRow],
-    settings: Mapping[str, Any],
+    settings: Plain,
     utilization_max: float = 1.0,
     measure: str = "panel_mean",
 ) -> None:
