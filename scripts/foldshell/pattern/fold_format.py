@@ -5,17 +5,19 @@ those of the rest state. `file_frames` are folded states that inherit it, with t
 have. Edge fold angles are in degrees, valley positive; own keys start with `foldshell:`.
 """
 
-import json
+from collections.abc import Iterator
 from pathlib import Path
 
 import numpy as np
 
 from foldshell.files.errors import InputError
+from foldshell.files.strict_json import read_json_object
 from foldshell.files.whole import Json, write_json
 from foldshell.pattern.angles import measure_folds
 from foldshell.pattern.grid import Grid, build_grid, remove_creases
 from foldshell.pattern.sheet import Frame, Sheet
 
+KINDS = ("miura", "arc_miura", "smooth", "flat")
 REST_TITLE, UNROLLED_TITLE = "rest", "rest, unrolled"
 
 
@@ -78,30 +80,54 @@ def read_fold(path: str | Path) -> Sheet:
 
     Raises InputError when a field is missing or does not describe a crease grid.
     """
-    try:
-        data = json.loads(Path(path).read_text(encoding="utf-8"))
-    except FileNotFoundError:
-        raise InputError(f"{path}: no such file: a FOLD file is needed") from None
-    except (UnicodeDecodeError, json.JSONDecodeError) as error:
-        raise InputError(f"{path}: not JSON ({error}): a FOLD 1.2 file is needed") from None
-    if not isinstance(data, dict):
-        raise InputError(f"{path}: top level: a {type(data).__name__}: must be an object")
+    data = read_json_object(path, "a FOLD 1.2 file")
     grid = _read_grid(path, data)
     flat = _read_vertices(path, data, "vertices_coords", grid)
-    frames = tuple(
-        Frame(str(frame.get("frame_title", k)), _read_vertices(path, frame, f"frame {k}", grid))
-        for k, frame in enumerate(data.get("file_frames", []), start=1)
-    )
+    frames = tuple(_read_frames(path, data, grid))
     named = {frame.title: frame.vertices for frame in frames}
     return Sheet(
-        kind=str(data.get("foldshell:kind", "miura")),
+        kind=_read_kind(path, data),
         grid=grid,
         flat=flat,
         rest=named.get(REST_TITLE, flat),
         path=tuple(f for f in frames if f.title not in (REST_TITLE, UNROLLED_TITLE)),
-        settings=data.get("foldshell:settings", {}),
+        settings=_read_settings(path, data),
         unrolled=named.get(UNROLLED_TITLE),
     )
+
+
+def _read_frames(path: str | Path, data: Json, grid: Grid) -> Iterator[Frame]:
+    frames = data.get("file_frames", [])
+    if not isinstance(frames, list):
+        raise InputError(f"{path}: file_frames: {_show(frames)}: a list of frames is needed")
+    for k, frame in enumerate(frames, start=1):
+        title = frame.get("frame_title", str(k)) if isinstance(frame, dict) else None
+        if not isinstance(title, str):
+            raise InputError(f"{path}: frame {k}: {_show(frame)}: an object with a title is needed")
+        yield Frame(title, _read_vertices(path, frame, f"frame {k}", grid))
+
+
+def _read_kind(path: str | Path, data: Json) -> str:
+    kind = data.get("foldshell:kind", KINDS[0])
+    if kind not in KINDS:
+        raise InputError(f"{path}: foldshell:kind: {_show(kind)}: one of {', '.join(KINDS)}")
+    return kind
+
+
+def _read_settings(path: str | Path, data: Json) -> dict[str, float]:
+    settings = data.get("foldshell:settings", {})
+    if not isinstance(settings, dict) or not all(
+        type(v) in (int, float) for v in settings.values()
+    ):
+        raise InputError(
+            f"{path}: foldshell:settings: {_show(settings)}: numbers by name are needed"
+        )
+    return settings
+
+
+def _show(value: object) -> str:
+    text = repr(value)
+    return text if len(text) <= 60 else f"{text[:60]}..."
 
 
 def _read_grid(path: str | Path, data: Json) -> Grid:
@@ -113,9 +139,10 @@ def _read_grid(path: str | Path, data: Json) -> Grid:
             f"{path}: foldshell:strip: {len(strip_index)} entries: as many as foldshell:zigzag"
         )
     zigzag_count, strip_count = int(zigzag_index.max()) + 1, int(strip_index.max()) + 1
-    if zigzag_count < 3 or strip_count < 3:
+    if min(zigzag_count, strip_count) < 3 or zigzag_count * strip_count != len(zigzag_index):
         raise InputError(
-            f"{path}: foldshell:zigzag: {zigzag_count} x {strip_count} polylines: at least 3"
+            f"{path}: foldshell:zigzag: {zigzag_count} x {strip_count} polylines and "
+            f"{len(zigzag_index)} vertices: at least 3 of each, and as many vertices as crossings"
         )
     grid = build_grid(zigzag_count, strip_count)
     if data.get("foldshell:kind") == "smooth":
@@ -125,7 +152,7 @@ def _read_grid(path: str | Path, data: Json) -> Grid:
     for key, value in expected.items():
         if not np.array_equal(_read_integers(path, data, key), value):
             raise InputError(f"{path}: {key}: not the crease grid that this project writes")
-    if list(data.get("edges_assignment", [])) != grid.assignments.tolist():
+    if data.get("edges_assignment") != grid.assignments.tolist():
         raise InputError(f"{path}: edges_assignment: not those of a Miura-like grid")
     return grid
 
@@ -133,20 +160,16 @@ def _read_grid(path: str | Path, data: Json) -> Grid:
 def _read_integers(path: str | Path, data: Json, key: str) -> np.ndarray:
     if key not in data:
         raise InputError(f"{path}: {key}: missing: a list of integers is needed")
-    try:
-        values = np.array(data[key])
-    except ValueError:
-        values = np.array(None)
-    if values.ndim == 0 or not np.issubdtype(values.dtype, np.integer):
+    values = _as_array(data[key], (int,), np.int64)
+    if values is None:
         raise InputError(f"{path}: {key}: not integers: a list of integers is needed")
     return values
 
 
 def _read_vertices(path: str | Path, data: Json, where: str, grid: Grid) -> np.ndarray:
-    try:
-        values = np.array(data.get("vertices_coords"), dtype=float)
-    except (TypeError, ValueError):
-        values = np.empty(0)
+    values = _as_array(data.get("vertices_coords"), (int, float), np.float64)
+    if values is None:
+        raise InputError(f"{path}: {where}: vertices_coords: rows of 2 or 3 coordinates are needed")
     if (
         values.ndim != 2
         or values.shape[0] != len(grid.zigzag_index)
@@ -158,3 +181,17 @@ def _read_vertices(path: str | Path, data: Json, where: str, grid: Grid) -> np.n
     if not np.isfinite(values).all():
         raise InputError(f"{path}: {where}: not finite: coordinates must be numbers")
     return np.column_stack([values, np.zeros((len(values), 3 - values.shape[1]))])
+
+
+def _as_array(value: object, kinds: tuple[type, ...], dtype: type) -> np.ndarray | None:
+    """A list, or a list of lists, of numbers of these kinds as an array; None for anything else."""
+    rows = value if isinstance(value, list) else None
+    if rows is None:
+        return None
+    flat = [x for row in rows for x in row] if all(isinstance(r, list) for r in rows) else rows
+    if not all(type(x) in kinds for x in flat):
+        return None
+    try:
+        return np.array(rows, dtype=dtype)
+    except (ValueError, OverflowError):
+        return None

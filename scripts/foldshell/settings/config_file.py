@@ -50,13 +50,12 @@ def read_config(path: str | Path) -> dict[str, Any]:
     for number, line in enumerate(text.splitlines(), start=1):
         if "\t" in line:
             raise InputError(f"{path}: line {number}: a tab: only spaces are allowed")
-    loader = _StrictLoader(text)
     try:
+        loader = _StrictLoader(text)
         node = loader.get_single_node()
-    except (yaml.YAMLError, RecursionError) as error:
-        raise InputError(f"{path}: {_describe_yaml_error(error)}") from None
-    finally:
         loader.dispose()
+    except (yaml.YAMLError, RecursionError, ValueError) as error:
+        raise InputError(f"{path}: {_describe_yaml_error(error)}") from None
     if node is None:
         raise InputError(f"{path}: the file is empty: keys with values are allowed")
     if not isinstance(node, yaml.MappingNode):

@@ -19,6 +19,9 @@ MOST_ROWS, MOST_COLUMNS = 20_000, 64
 _CELLS_A_ROW, _BYTES_A_ROW = 20, 1000
 _SPARE_ROWS = 200
 _REFERENCE = re.compile(r"([A-Z]{1,3})([1-9][0-9]{0,6})")
+_NUMBER = re.compile(
+    r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]+)?|[-+]?(nan|inf)", re.IGNORECASE
+)
 _BUILT_IN_DATES = {*range(14, 23), *range(27, 37), *range(45, 48), *range(50, 59)}
 _BUILT_IN_PERCENT = {9, 10}
 # What is not a placeholder in a number format: quoted text, escapes, [colours], fill characters.
@@ -81,7 +84,7 @@ class _SheetStream:
 
     def parse(self, text: str) -> None:
         """Feed the whole XML text of a worksheet."""
-        parser = expat.ParserCreate(namespace_separator=" ")
+        parser = expat.ParserCreate("utf-8", namespace_separator=" ")
         parser.buffer_text = True
         parser.StartElementHandler = self._start
         parser.EndElementHandler = self._end
@@ -165,10 +168,9 @@ class _SheetStream:
 
 
 def _interpret_number(text: str, shown_as: str) -> tuple[str, Any]:
-    try:
-        number = float(text)
-    except ValueError:
+    if not _NUMBER.fullmatch(text.strip(" \t\r\n")):
         return "text", text
+    number = float(text)
     return (shown_as, number) if math.isfinite(number) else ("error", text)
 
 
@@ -188,10 +190,10 @@ def _iterate_text(item: Any) -> Iterator[str]:
     """Yield the runs of a shared text, without phonetic readings."""
     for child in item:
         tag = child.tag.rpartition("}")[2]
-        if tag == "t":
-            yield child.text or ""
-        elif tag == "r":
-            yield from _iterate_text(child)
+        parts = child if tag == "r" else [child]
+        for part in parts:
+            if part.tag.rpartition("}")[2] == "t":
+                yield part.text or ""
 
 
 def _read_number_kinds(package: Package) -> list[str]:

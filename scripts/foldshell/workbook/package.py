@@ -6,8 +6,10 @@ Nothing is unpacked before the zip directory has been checked, and no part is la
 import io
 import posixpath
 import re
+import struct
 import zipfile
 from dataclasses import dataclass
+from lzma import LZMAError
 from pathlib import Path
 from xml.etree import ElementTree
 from zlib import error as ZlibError
@@ -30,7 +32,9 @@ _FOREIGN_PARTS = {
     "xl/vbaproject.bin": "macros",
 }
 _RELATION = "{http://schemas.openxmlformats.org/package/2006/relationships}Relationship"
-_MEMBER_ERRORS = (zipfile.BadZipFile, ZlibError, EOFError, NotImplementedError, RuntimeError)
+_MEMBER_ERRORS = (zipfile.BadZipFile, ZlibError, LZMAError, EOFError, NotImplementedError)
+_MEMBER_ERRORS += (RuntimeError, ValueError, OverflowError, MemoryError, struct.error)
+_ENCODING = re.compile(r"""<\?xml[^>]{0,200}?\sencoding\s*=\s*["']([^"']*)["']""")
 
 
 @dataclass(frozen=True)
@@ -63,6 +67,12 @@ class Package:
             text = data.decode("utf-8-sig")
         except UnicodeDecodeError:
             raise InputError(f"{self.path}: part {name}: not UTF-8: {_SAVE_AS} anew") from None
+        declared = _ENCODING.match(text)
+        if declared and declared[1].casefold() not in ("utf-8", "utf8", "us-ascii", "ascii"):
+            raise InputError(
+                f"{self.path}: part {name}: encoding {declared[1][:40]!r}: UTF-8 is allowed, "
+                f"{_SAVE_AS} anew"
+            )
         if "<!DOCTYPE" in text or "<!ENTITY" in text:
             raise InputError(f"{self.path}: part {name}: holds a document type, none is allowed")
         return text
@@ -72,7 +82,7 @@ class Package:
         text = self.read_part(name)
         try:
             return ElementTree.fromstring(text)
-        except (ElementTree.ParseError, ValueError) as error:
+        except (ElementTree.ParseError, ValueError, LookupError) as error:
             raise InputError(f"{self.path}: part {name}: damaged ({error})") from None
 
     def find_sheets(self) -> dict[str, str]:

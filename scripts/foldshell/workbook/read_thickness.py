@@ -100,7 +100,7 @@ def _read_panel(
         raise InputError(f"{place}: row {row}: a thickness without a panel id: an id is due")
     number = _to_number(cell)
     count = grid.panel.size
-    if number is None or number != int(number) or not 0 <= number < count:
+    if number is None or not 0 <= number < count or number != int(number):
         raise InputError(
             f"{place}: cell {cell.reference}: {_show(cell)}: unknown panel, 0 to {count - 1} "
             "are allowed"
@@ -153,7 +153,7 @@ def _show(cell: Cell) -> str:
         words = {"number": "", "date": "a date, ", "percent": "a percentage, "}
         return f"{words[cell.kind]}{cell.value:.12g}"
     if cell.kind in ("error", "no_value"):
-        return f"{'the error ' if cell.kind == 'error' else ''}{cell.value}"
+        return f"{'the error ' if cell.kind == 'error' else ''}{cell.value[:60]}"
     return repr(cell.value[:60] if isinstance(cell.value, str) else cell.value)
 
 

@@ -48,6 +48,10 @@ WORDS = [
     "0.1\u00a0",
     "1 000",
     "panel 3",
+    "1e999",
+    "-1e999",
+    "9" * 5000,
+    "1e400",
     "",
 ]
 VALUES = st.one_of(
@@ -214,3 +218,66 @@ def test_random_xml(original, tmp_path, text, position):
         read_thickness(path, GRID, LEAST, LARGEST)
     except InputError as error:
         assert "\n" not in str(error)
+
+
+NUMBERS = [
+    "1e999",
+    "-1e999",
+    "9" * 5000,
+    "1_0",
+    "\u0663",
+    "nan",
+    "-inf",
+    "0x1",
+    "1e",
+    " 1 ",
+    "+1",
+    "1.",
+]
+
+
+def write_number(path, reference, text):
+    """Put `text` into the number of one cell, as the file holds it."""
+    import re
+
+    from workbook_cases import SHEET_PART, rewrite_part
+
+    cell = re.compile(rf'(<c r="{reference}"[^>]*><v>)[^<]*(</v>)'.encode())
+
+    def change(data: bytes) -> bytes:
+        changed, count = cell.subn(lambda m: m[1] + text.encode() + m[2], data)
+        assert count == 1
+        return changed
+
+    return rewrite_part(path, SHEET_PART, change)
+
+
+@pytest.mark.parametrize("text", NUMBERS)
+@pytest.mark.parametrize("reference", ["A4", "D4"])
+def test_numbers_that_are_none(tmp_path, reference, text):
+    """A panel's id and a thickness that no spreadsheet writes: a sentence with the cell."""
+    path = write_case(tmp_path / "thickness.xlsx")
+    write_number(path, reference, text)
+    try:
+        found = read_thickness(path, GRID, LEAST, LARGEST)
+    except InputError as error:
+        assert f"cell {reference}: " in str(error) and "\n" not in str(error)
+        assert len(str(error)) < 400
+    else:
+        assert text in (" 1 ", "+1", "1.")
+        assert found[1] == (1.0 if reference == "D4" else round_thickness(THICKNESS)[1])
+
+
+@pytest.mark.parametrize("name", ["UTF-7", "utf-16", "latin-1", "klingon"])
+def test_sheets_in_other_encodings(tmp_path, name):
+    from workbook_cases import SHEET_PART, rewrite_part
+
+    path = write_case(tmp_path / "thickness.xlsx")
+
+    def change(data: bytes) -> bytes:
+        assert b'encoding="UTF-8"' in data
+        return data.replace(b'encoding="UTF-8"', f'encoding="{name}"'.encode())
+
+    rewrite_part(path, SHEET_PART, change)
+    with pytest.raises(InputError, match=f"sheet2.xml: encoding '{name}': UTF-8 is allowed"):
+        read_thickness(path, GRID, LEAST, LARGEST)

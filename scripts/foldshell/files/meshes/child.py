@@ -33,6 +33,7 @@ def read_vtk(path: str) -> dict:
     reader.SetFileName(path)
     reader.Update()
     said = window.GetOutput() or ""
+    said = said.decode("latin-1") if isinstance(said, bytes) else said
     if re.search(r"\bERR(OR)?\b", said) or reader.GetErrorCode():
         raise Refused(f"damaged, empty or cut off: VTK says {_shorten(said)!r}")
     data = reader.GetOutputDataObject(0)
@@ -60,7 +61,7 @@ def _make_reader(suffix: str):
 def _shorten(said: str) -> str:
     """The first thing that VTK says, without where in its source it says so."""
     first = next((line.partition("): ")[2] for line in said.splitlines() if "): " in line), said)
-    return " ".join(first.split())[:120]
+    return " ".join(re.sub(r" for file: .*", "", first).split())[:120]
 
 
 def _as_array(data) -> np.ndarray:
@@ -208,6 +209,9 @@ def main(path: str, out: str) -> int:
         np.savez(out, **arrays)
     except Refused as error:
         print(error)
+        return REFUSED
+    except (OverflowError, ValueError) as error:  # counts and offsets that fit nothing
+        print(f"damaged: {type(error).__name__} {' '.join(str(error).split())[:100]}")
         return REFUSED
     except MemoryError:
         print(f"needs more than {MEMORY / 1e9:g} GB to be read: damaged, or too large")
