@@ -1,9 +1,8 @@
 """Rule archive: the study as one file that a stranger can verify and run again."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from datetime import UTC, datetime
 from pathlib import Path
-from typing import Any
 
 from foldshell.archive.bag import write_archive
 from foldshell.archive.content import Study
@@ -11,6 +10,7 @@ from foldshell.engine.job import run_job
 from foldshell.files.manifest import read_manifest
 from foldshell.files.whole import hash_data, hash_file, write_json
 from foldshell.settings.archive import Archive
+from foldshell.settings.field import Plain
 from foldshell.settings.stage import read_stage
 
 
@@ -21,9 +21,9 @@ def main(
     designs: Sequence[str],
     results: str | Path,
     project: str | Path,
-    config: Mapping[str, Any],
+    config: Plain,
     tables: Sequence[str | Path],
-    settings: Mapping[str, Any],
+    settings: Plain,
 ) -> None:
     """Write `<tag>-<first 8 of the result's hash>.zip`, then archive.json, which names it."""
     folder = Path(pointer_path).parent

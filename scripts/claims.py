@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
 
 from foldshell.claims.design_result import make_comparer
 from foldshell.claims.gather import Sources, read_sources
@@ -15,6 +14,7 @@ from foldshell.records.design_row import make_design_row
 from foldshell.records.files import write_records
 from foldshell.records.measures import SensitivityRow
 from foldshell.records.table import write_rows
+from foldshell.settings.design import Row
 from foldshell.settings.stage import Plain, read_stage
 from foldshell.settings.stages import STAGES
 
@@ -25,7 +25,7 @@ def main(
     page_path: str | Path,
     runs_path: str | Path,
     *,
-    designs: Mapping[str, Sequence[Mapping[str, Any]]],
+    designs: Mapping[str, Sequence[Row]],
     variants: Sequence[str],
     settings: Plain,
 ) -> None:

@@ -3,7 +3,6 @@
 from collections.abc import Mapping, Sequence
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
 
 from foldshell.engine.job import run_job
 from foldshell.exchange.formats import FORMATS
@@ -12,6 +11,7 @@ from foldshell.exchange.read_model import read_export_model
 from foldshell.files.whole import hash_file, write_json
 from foldshell.settings.analysed import LOADED
 from foldshell.settings.crosscheck import Crosscheck
+from foldshell.settings.design import Row
 from foldshell.settings.exports import Drawings, Exports
 from foldshell.settings.stage import Plain, read_stage
 
@@ -22,7 +22,7 @@ def main(
     paths: Sequence[str | Path],
     *,
     format_name: str,
-    design: Mapping[str, Any],
+    design: Row,
     settings: Plain,
 ) -> None:
     """Write the files of a format, in the order of its entry in `FORMATS`, then the record.

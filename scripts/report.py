@@ -3,12 +3,13 @@
 import os
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from foldshell.engine.job import run_job
 from foldshell.files.whole import atomic_path
 from foldshell.report.provenance import find_provenance
 from foldshell.report.study_report import read_study, write_study_report
+from foldshell.settings.stage import Plain, read_stage
+from foldshell.settings.stages import STAGES
 
 
 def main(
@@ -19,7 +20,7 @@ def main(
     study: str,
     results: str | Path,
     project: str | Path,
-    settings: Mapping[str, Any],
+    settings: Plain,
     left_out: Mapping[str, str],
 ) -> None:
     """Write the report.
@@ -39,7 +40,9 @@ def main(
         study, paths["summary"], results, paths["tiles"], figures, paths.get("claims"), text
     )
     way = Path(os.path.relpath(results, Path(report).parent)).as_posix()
-    page = write_study_report(files, settings, find_provenance(project), way, left_out)
+    page = write_study_report(
+        files, read_stage(settings, *STAGES["study"]), find_provenance(project), way, left_out
+    )
     with atomic_path(report) as temporary:
         temporary.write_text(page, encoding="utf-8")
 

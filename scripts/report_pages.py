@@ -1,11 +1,9 @@
 """Rule report_pages: summary, verification and settings as pages for the report."""
 
-import platform
 from collections.abc import Mapping, Sequence
-from importlib.metadata import version
 from pathlib import Path
-from typing import Any
 
+from foldshell.engine.environment import list_versions
 from foldshell.engine.job import run_job
 from foldshell.files.whole import atomic_path
 from foldshell.records.summary import SummaryRow
@@ -16,6 +14,8 @@ from foldshell.report.study_pages import (
     write_summary_page,
 )
 from foldshell.results.summary import hash_study
+from foldshell.settings.stage import Plain, read_stage
+from foldshell.settings.stages import STAGES
 
 PACKAGES = ("snakemake", "numpy", "scipy", "vtk", "meshio", "XlsxWriter", "openpyxl", "Pillow",
             "matplotlib")  # fmt: skip
@@ -25,16 +25,17 @@ def main(
     summary: str | Path,
     verification: Sequence[str | Path],
     pages: Mapping[str, str | Path],
-    settings: Mapping[str, Any],
+    settings: Plain,
 ) -> None:
     """Write `pages`: summary, verification (of Markdown files), settings."""
-    versions = {"python": platform.python_version()} | {name: version(name) for name in PACKAGES}
+    versions = list_versions(PACKAGES)
     text = "\n\n".join(Path(path).read_text(encoding="utf-8") for path in verification)
     study_hash = hash_study(read_rows(summary, SummaryRow))
+    given = read_stage(settings, *STAGES["study"])
     written = {
         "summary": write_summary_page(summary),
         "verification": write_markdown_page("Verification", text),
-        "settings": write_settings_page(settings, study_hash, versions),
+        "settings": write_settings_page(given, study_hash, versions),
     }
     for name, page in written.items():
         with atomic_path(pages[name]) as temporary:

@@ -3,15 +3,14 @@
 import subprocess
 import sys
 import tempfile
-from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import yaml
 
 from foldshell.engine.job import run_job
 from foldshell.files.errors import InputError
 from foldshell.files.whole import atomic_path
+from foldshell.settings.field import Plain
 
 
 def main(
@@ -19,7 +18,7 @@ def main(
     stylesheet: str | Path,
     snakefile: str,
     target: str,
-    config: Mapping[str, Any],
+    config: Plain,
 ) -> None:
     """Let a second Snakemake, which runs no job, gather what is flagged below `target`.
 

@@ -1,21 +1,23 @@
 """Gather one row per design into summary.csv and summary.xlsx."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Sequence
 from pathlib import Path
-from typing import Any
 
 from foldshell.engine.job import run_job
 from foldshell.files.errors import InputError
 from foldshell.records.summary import SummaryRow
 from foldshell.records.table import write_rows
 from foldshell.results.summary import hash_study, make_summary_row
+from foldshell.settings.design import Row
+from foldshell.settings.stage import Plain, read_stage
+from foldshell.settings.stages import STAGES
 from foldshell.workbook.summary import write_summary
 
 
 def main(
-    designs: Sequence[Mapping[str, Any]],
+    designs: Sequence[Row],
     results: str | Path,
-    settings: Mapping[str, Any],
+    settings: Plain,
     csv: str | Path,
     xlsx: str | Path,
 ) -> None:
@@ -27,9 +29,8 @@ def main(
     if not designs:
         raise InputError("summary: designs: none given: at least one is due")
     rows = [make_summary_row(row, Path(results) / row["design"]) for row in designs]
-    sizing, shown = settings["sizing"], {**settings, "study_hash": hash_study(rows)}
     write_rows(csv, SummaryRow, rows)
-    write_summary(xlsx, rows, shown, sizing["utilization_max"], sizing["measure"])
+    write_summary(xlsx, rows, read_stage(settings, *STAGES["study"]), hash_study(rows))
 
 
 if "snakemake" in globals():

@@ -4,6 +4,8 @@ import claims_page
 import report_pages
 from foldshell.records.summary import SummaryRow
 from foldshell.records.table import write_rows
+from foldshell.settings.make import make_settings
+from foldshell.settings.stages import stage_parameters
 from record_cases import make_summary
 
 
@@ -13,7 +15,7 @@ def test_three_pages_are_written(tmp_path):
     (tmp_path / "a.md").write_text("# Shell\n\n| problem | value |\n|---|---|\n| plate | 4 |\n")
     pages = {name: tmp_path / f"{name}.html" for name in ("summary", "verification", "settings")}
     report_pages.main(tmp_path / "summary.csv", [tmp_path / "a.md"], pages,
-                      {"sizing": {"step": 0.1}})  # fmt: skip
+                      stage_parameters(make_settings({}), "study"))  # fmt: skip
     text = {name: path.read_text(encoding="utf-8") for name, path in pages.items()}
     assert "1 converged: 1 in all" in text["summary"]
     assert "<td>plate</td>\n<td>4</td>" in text["verification"]

@@ -4,7 +4,6 @@ import runpy
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 from foldshell.engine.job import describe_job, find_home, name_job
 from foldshell.engine.task import Named, Task
@@ -12,6 +11,7 @@ from foldshell.files.edits import WORKBOOK, keep_edited
 from foldshell.files.errors import InputError
 from foldshell.files.job_record import FOLDER, hash_inputs, read_record, state_of
 from foldshell.files.whole import read_json
+from foldshell.settings.field import Plain
 
 ITERATIONS_MAX = 100
 
@@ -25,7 +25,7 @@ class LoopPlan:
     folder: str
     mesh: str
     code: Mapping[str, str]
-    params: Mapping[str, Mapping[str, Any]]
+    params: Mapping[str, Plain]
 
     def start(self) -> Task:
         """Return the job that writes the first workbook."""

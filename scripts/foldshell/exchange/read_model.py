@@ -2,7 +2,6 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -11,6 +10,7 @@ from foldshell.exchange.panels_of_mesh import Edges, classify, find_edges, find_
 from foldshell.files.errors import InputError
 from foldshell.files.whole import read_arrays, read_json
 from foldshell.loads.cases import make_load_cases
+from foldshell.settings.design import Row
 from foldshell.settings.stage import StageSettings
 
 GROUPS = ("strength", "deflection")
@@ -20,7 +20,7 @@ _SCALARS = ("volume_m3", "area_m2", "utilization_max", "utilization_panel_mean_m
 
 def read_export_model(
     paths: Mapping[str, str | Path],
-    design: Mapping[str, Any],
+    design: Row,
     settings: StageSettings,
 ) -> ExportModel:
     """Read mesh.npz, folded.npz, final.npz, final.json and, where given, classes.npz and the

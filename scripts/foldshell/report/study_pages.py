@@ -1,14 +1,14 @@
 """Pages over all designs: summary, claims, verification, settings and versions."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 from foldshell.records.entry import Entry, entries, strip_null
 from foldshell.records.summary import SummaryRow
 from foldshell.records.table import read_rows
 from foldshell.report.markdown import render_markdown
 from foldshell.report.markup import Cell, Table, make_table, render
+from foldshell.settings.stage import StageSettings, flatten
 from foldshell.workbook.styles import GOOD_VERDICTS
 
 JUDGED = ("state", "crosscheck")
@@ -103,7 +103,7 @@ def write_markdown_page(title: str, text: str) -> str:
 
 
 def write_settings_page(
-    settings: Mapping[str, Any], study_hash: str, versions: Mapping[str, str]
+    settings: StageSettings, study_hash: str, versions: Mapping[str, str]
 ) -> str:
     """Return the page of the settings by group, and of the versions they were used with."""
     groups = list_settings(settings)
@@ -111,20 +111,11 @@ def write_settings_page(
     return render("settings.html", title="Settings and versions", digest=study_hash, groups=groups)
 
 
-def list_settings(settings: Mapping[str, Any]) -> list[tuple[str, Table]]:
+def list_settings(settings: StageSettings) -> list[tuple[str, Table]]:
     """Return the settings of each group by their dotted names."""
-    header = ("setting", "value")
-    return [
-        (name, make_table(header, [(".".join(path), _plain(v)) for path, v in _flatten(values)]))
-        for name, values in settings.items()
-    ]
+    groups = settings.to_plain().items()
+    return [(name, make_table(("setting", "value"), _list_texts(group))) for name, group in groups]
 
 
-def _flatten(values: Any, path: tuple[str, ...] = ()) -> Sequence[tuple[tuple[str, ...], Any]]:
-    if not isinstance(values, Mapping):
-        return [(path, values)]
-    return [item for key, value in values.items() for item in _flatten(value, (*path, str(key)))]
-
-
-def _plain(value: Any) -> str:
-    return ", ".join(map(str, value)) if isinstance(value, list | tuple) else str(value)
+def _list_texts(group: Mapping[str, object]) -> list[tuple[str, str]]:
+    return [(name, str(value)) for name, value in flatten(group)]

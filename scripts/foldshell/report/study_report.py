@@ -26,8 +26,7 @@ from foldshell.report.study_columns import Column, choose_columns, count_verdict
 from foldshell.report.study_pages import list_settings
 from foldshell.report.verification import make_verification
 from foldshell.results.summary import hash_study
-from foldshell.settings.analysed import LOADED
-from foldshell.settings.stage import read_stage
+from foldshell.settings.stage import StageSettings
 
 FIGURE_WIDTH = 800
 SIZE_MAX = 20_000_000
@@ -86,7 +85,7 @@ def _read_design(row: SummaryRow, folder: Path) -> DesignEntry:
 
 def write_study_report(
     files: StudyFiles,
-    settings: Json,
+    settings: StageSettings,
     provenance: Provenance,
     to_results: str,
     left_out: Mapping[str, str],
@@ -97,7 +96,6 @@ def write_study_report(
     Raises `ValueError` where it is larger than `SIZE_MAX` bytes.
     """
     columns = choose_columns([entry.row for entry in files.designs])
-    analysed = {kind: settings[kind] for kind in ("material", "loads", "combinations")}
     cards = [_make_card(entry, columns, to_results, files.tiles) for entry in files.designs]
     page = render(
         "study.html",
@@ -115,7 +113,7 @@ def write_study_report(
         claims=files.claims,
         verification=make_verification(files.designs),
         benchmarks=render_markdown(files.verification),
-        loads=describe_loads(read_stage(analysed, *LOADED)),
+        loads=describe_loads(settings),
         settings=list_settings(settings),
         study_hash=hash_study([entry.row for entry in files.designs]),
         provenance=provenance,

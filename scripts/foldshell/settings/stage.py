@@ -1,7 +1,7 @@
 """The settings of one stage: plain values on the way through Snakemake, typed at both ends."""
 
 import typing
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from foldshell.settings.field import Group, Plain, list_groups, list_settings, restore
@@ -29,6 +29,19 @@ class StageSettings:
     def to_plain(self) -> Plain:
         """Return {group: {field: value}} in kN, m, kPa and rad."""
         return {name: to_plain(one) for name, one in vars(self).items()}
+
+
+def flatten(values: Mapping[str, object], prefix: str = "") -> list[tuple[str, object]]:
+    """Return nested plain settings as (`group.key`, value) in their order; lists become text."""
+    flat: list[tuple[str, object]] = []
+    for key, value in values.items():
+        if isinstance(value, Mapping):
+            flat += flatten(value, f"{prefix}{key}.")
+        elif isinstance(value, list | tuple):
+            flat.append((f"{prefix}{key}", ", ".join(str(item) for item in value)))
+        else:
+            flat.append((f"{prefix}{key}", value))
+    return flat
 
 
 def to_plain(values: Group, stage: str | None = None) -> Plain:

@@ -7,8 +7,8 @@ from typing import Any
 
 from foldshell.records.analysis import Criteria
 from foldshell.records.history import HistoryRow
-from foldshell.settings.field import Plain
 from foldshell.settings.loads import LOAD_CASES, Combinations
+from foldshell.settings.stage import StageSettings, flatten
 from foldshell.workbook.history import add_history_sheets
 from foldshell.workbook.panels import FloatArray, IntArray, PanelGrid
 from foldshell.workbook.styles import (
@@ -41,7 +41,7 @@ class DesignReport:
     thickness_class: IntArray | None = None
     loads: Sequence[Line] = ()
     combinations: Combinations = field(default_factory=Combinations)
-    settings: Plain = field(default_factory=dict)
+    settings: StageSettings = field(default_factory=StageSettings)
     versions: Mapping[str, str] = field(default_factory=dict)
     sources: Sequence[str] = ()
     utilization_max: float = 1.0
@@ -56,7 +56,9 @@ def write_design(path: str | Path, report: DesignReport) -> None:
         limit = report.utilization_max
         add_history_sheets(book, styles, report.history, limit, report.measure)
         _add_loads(book, styles, report)
-        add_notes(book, styles, report.settings, report.versions, report.sources)
+        add_notes(
+            book, styles, flatten(report.settings.to_plain()), report.versions, report.sources
+        )
 
 
 def _add_summary(book: Any, styles: Styles, report: DesignReport) -> None:
@@ -126,28 +128,15 @@ def _add_loads(book: Any, styles: Styles, report: DesignReport) -> None:
 def add_notes(
     book: Any,
     styles: Styles,
-    settings: Plain,
+    settings: Sequence[tuple[str, object]],
     versions: Mapping[str, str],
     sources: Sequence[str],
 ) -> None:
-    """Add the sheet `notes`: every setting in kN, m, kPa and rad, versions, sources."""
+    """Add the sheet `notes`: settings by name in kN, m, kPa and rad, versions, sources."""
     sheet = add_sheet(book, "notes", landscape=False)
-    rows = list(flatten(settings).items())
+    rows = list(settings)
     rows += [(f"version of {name}", text) for name, text in versions.items()]
     rows += [("source", text) for text in sources]
     columns = [Column("setting", "", "text", 36.0), Column("value", "", "text", 60.0)]
     write_table(sheet, styles, 0, columns, rows)
     sheet.write_string(1, 0, "units: kN, m, kPa, rad", styles["unit_text"])
-
-
-def flatten(values: Plain, prefix: str = "") -> Plain:
-    """Return nested groups as {`group.key`: value}; lists become text."""
-    flat: Plain = {}
-    for key, value in values.items():
-        if isinstance(value, Mapping):
-            flat.update(flatten(value, f"{prefix}{key}."))
-        elif isinstance(value, list | tuple):
-            flat[f"{prefix}{key}"] = ", ".join(str(item) for item in value)
-        else:
-            flat[f"{prefix}{key}"] = value
-    return flat

@@ -76,7 +76,7 @@ def make_design_report(
         history=iterations.history,
         loads=[_describe_load(name, value) for name, value in vars(settings.loads).items()],
         combinations=settings.combinations,
-        settings=settings.to_plain(),
+        settings=settings,
         versions=versions,
         sources=SOURCES,
         utilization_max=sizing.utilization_max,

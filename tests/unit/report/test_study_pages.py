@@ -3,6 +3,8 @@
 from foldshell.records.summary import SummaryRow
 from foldshell.records.table import write_rows
 from foldshell.report.study_pages import write_settings_page, write_summary_page
+from foldshell.settings.loads import Combinations
+from foldshell.settings.stage import StageSettings
 from record_cases import make_summary
 
 
@@ -33,7 +35,7 @@ def test_every_design_is_a_row_with_its_units(tmp_path):
 
 def test_settings_are_listed_with_hash_and_versions():
     """Nested settings get dotted names."""
-    page = write_settings_page({"combinations": {"strength": {"S1": {"SW": 1.4}}}}, "abc123",
+    page = write_settings_page(StageSettings(Combinations()), "abc123",
                                {"numpy": "2.0"})  # fmt: skip
     for text in ("strength.S1.SW", "1.4", "abc123", "numpy", "2.0"):
         assert text in page

@@ -25,7 +25,7 @@ from foldshell.settings.field import list_groups, list_settings
 from foldshell.settings.load import load_study
 from foldshell.settings.make import make_settings, read_settings
 from foldshell.settings.sizing import Sizing
-from foldshell.settings.stage import read_stage, to_plain
+from foldshell.settings.stage import flatten, read_stage, to_plain
 from foldshell.settings.stages import STAGES, hash_decisions, stage_parameters
 from foldshell.settings.study import Settings
 from foldshell.shell.supports import SUPPORT_SETS
@@ -403,3 +403,8 @@ def test_load_study_reads_files_strictly_and_takes_overrides(tmp_path):
     config.write_text("sizing: {stpe: 0.2}\n", encoding="utf-8")
     with pytest.raises(InputError, match=r"config\.yaml: sizing\.stpe"):
         load_study(merged, [config])
+
+
+def test_nested_settings_get_dotted_names():
+    plain = {"a": {"b": 1, "c": {"d": [1, 2]}}, "e": "f"}
+    assert flatten(plain) == [("a.b", 1), ("a.c.d", "1, 2"), ("e", "f")]

@@ -16,8 +16,9 @@ from foldshell.records.summary import SummaryRow
 from foldshell.records.table import write_rows
 from foldshell.results.history import make_history
 from foldshell.settings.make import make_settings
-from foldshell.settings.stages import stage_parameters
-from foldshell.workbook.design import DesignReport, flatten, write_design
+from foldshell.settings.stage import read_stage
+from foldshell.settings.stages import STAGES, stage_parameters
+from foldshell.workbook.design import DesignReport, write_design
 from foldshell.workbook.history import write_history
 from foldshell.workbook.panels import make_panel_grid
 from foldshell.workbook.styles import Line, make_lines
@@ -31,6 +32,9 @@ GRID = make_panel_grid(4, 5)
 HISTORY_KEYS = tuple(key for key, about in entries(HistoryRow).items() if not about.left_out)
 SUMMARY_KEYS = tuple(entries(SummaryRow))
 LINES = [Line("design", "a"), Line("verdict", "converged", judged=True)]
+
+
+STUDY = read_stage(stage_parameters(make_settings({}), "study"), *STAGES["study"])
 
 
 def make_iteration(iteration: int, **changes):
@@ -124,7 +128,7 @@ def make_report(rows):
         history=rows,
         loads=[Line("live", 1.0, "kN/m2")],
         combinations=settings.combinations,
-        settings=stage_parameters(settings, "study"),
+        settings=STUDY,
         versions={"foldshell": "0.1.0"},
         sources=("=HYPERLINK()",),
     )
@@ -169,7 +173,7 @@ def test_summary_workbook(tmp_path):
         make_summary(design="b", state="failed", reason="sizing/00/analysis.json is missing"),
     ]
     path = tmp_path / "summary.xlsx"
-    write_summary(path, rows, {"sizing": {"step": 0.1}})
+    write_summary(path, rows, STUDY, "0123456789ab")
     book = openpyxl.load_workbook(path)
     assert book.sheetnames == ["summary", "overview", "notes"]
     values = list(book["summary"].iter_rows(values_only=True))
@@ -185,7 +189,7 @@ def test_same_values_give_the_same_bytes(tmp_path, rows):
     def write(folder):
         write_history(folder / "history.xlsx", rows, LINES)
         write_design(folder / "design.xlsx", make_report(rows))
-        write_summary(folder / "summary.xlsx", [make_summary()], {})
+        write_summary(folder / "summary.xlsx", [make_summary()], STUDY, "0123456789ab")
         return [path.read_bytes() for path in sorted(folder.iterdir())]
 
     first, second = tmp_path / "first", tmp_path / "second"
@@ -237,17 +241,9 @@ def test_lines_have_words_and_unit_of_their_field():
 def test_only_what_decides_is_marked_above_its_limit(tmp_path, rows):
     """The peak of an element and the 99 % value have no limit; the measure of the loop has one."""
     write_history(tmp_path / "history.xlsx", rows, [])
-    write_summary(tmp_path / "summary.xlsx", [make_summary()], {})
+    write_summary(tmp_path / "summary.xlsx", [make_summary()], STUDY, "0123456789ab")
     for name, keys in (("history", HISTORY_KEYS), ("summary", SUMMARY_KEYS)):
         sheet = openpyxl.load_workbook(tmp_path / f"{name}.xlsx")[name]
         (area,) = sheet.conditional_formatting
         column = sheet.cell(1, keys.index("utilization_panel_mean_max") + 1).column_letter
         assert str(area.sqref).startswith(f"{column}3")
-
-
-def test_flatten():
-    assert flatten({"a": {"b": 1, "c": {"d": [1, 2]}}, "e": "f"}) == {
-        "a.b": 1,
-        "a.c.d": "1, 2",
-        "e": "f",
-    }
