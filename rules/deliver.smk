@@ -36,6 +36,7 @@ rule page:
         quality=rules.fold.output.quality,
         arrays=rules.size.output.arrays,
         final=rules.size.output.final,
+        iterations=rules.size.output.panels,
         history=rules.size.output.csv,
         classes=CLASSES["json"],
         class_arrays=CLASSES["arrays"],

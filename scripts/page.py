@@ -5,9 +5,10 @@ from pathlib import Path
 
 from foldshell.engine.job import run_job
 from foldshell.files.whole import atomic_path
+from foldshell.report.combination_data import make_more_data
 from foldshell.report.page import write_design_page
 from foldshell.report.sections import read_files
-from foldshell.report.viewer_data import make_viewer_data
+from foldshell.report.viewer_data import make_grid, make_viewer_data
 from foldshell.results.design_view import view_design
 from foldshell.results.state import read_state
 from foldshell.settings.analysed import ANALYSED
@@ -30,20 +31,20 @@ def main(
 
     Parameters
     ----------
-    paths : mesh, folded, arrays, class_arrays (npz), final, quality, classes, mesh_convergence,
-        comparison (json), history (csv)
+    paths : mesh, folded, arrays, class_arrays, iterations (npz), final, quality, classes,
+        mesh_convergence, comparison (json), history (csv)
     pictures : PNG files by name
     design : row of designs.tsv
     settings : plain parameters of stage `size`
     """
     state_paths = [paths[name] for name in ARRAYS]
-    one = Design.from_row(design)
-    given = read_stage(settings, *ANALYSED)
+    one, given = Design.from_row(design), read_stage(settings, *ANALYSED)
     state = read_state(one.name, *state_paths, given.combinations, paths["class_arrays"])
     view = view_design(state, given, one.span, one.pattern)
     files = read_files(one, paths)
+    more = make_more_data(view, make_grid(view), given, paths["iterations"])
     limit = view.sizing.utilization_max
-    page = write_design_page(files, make_viewer_data(view), pictures, limit)
+    page = write_design_page(files, make_viewer_data(view), more, pictures, limit)
     with atomic_path(page_path) as temporary:
         temporary.write_text(page, encoding="utf-8")
 

@@ -25,23 +25,24 @@ def main(
     csv_path: str | Path,
     history_path: str | Path,
     design_path: str | Path,
-    final_json_path: str | Path,
-    final_arrays_path: str | Path,
+    final_paths: Sequence[str | Path],
     *,
     design: Row,
     settings: Plain,
 ) -> None:
-    """Write histories, design.xlsx and copies of the last analysis. Iterations left behind that one
-    are removed; edited workbooks among them are kept under sizing/superseded."""
+    """Write histories, design.xlsx, panels of all iterations and copies of the last analysis. What
+    is left behind it is removed; edited workbooks of that are kept under sizing/superseded.
+
+    `final_paths` are final.json, final.npz and iterations.npz."""
     one, given = Design.from_row(design), read_stage(settings, *ANALYSED)
     iterations = gather_iterations(json_paths, one.span, given.sizing)
     more = list_versions(PACKAGES), *read_classes(*classes_paths)
     report = make_design_report(iterations, one, given, *more)
     write_rows(csv_path, HistoryRow, iterations.history)
-    limit = report.utilization_max
-    write_history(history_path, iterations.history, report.verdict, limit, report.measure)
+    judged = report.verdict, report.utilization_max, report.measure
+    write_history(history_path, iterations.history, *judged)
     write_design(design_path, report)
-    write_final(final_json_path, final_arrays_path, iterations)
+    write_final(*final_paths, iterations)
     remove_superseded(Path(csv_path).parent, len(json_paths))
 
 
@@ -50,10 +51,9 @@ if "snakemake" in globals():
         main(
             snakemake.input.analyses,  # noqa: F821
             snakemake.input.classes,  # noqa: F821
-            snakemake.output.csv,  # noqa: F821
-            snakemake.output.history,  # noqa: F821
-            snakemake.output.design,  # noqa: F821
-            snakemake.output.final,  # noqa: F821
-            snakemake.output.arrays,  # noqa: F821
+            (files := snakemake.output).csv,  # noqa: F821
+            files.history,
+            files.design,
+            (files.final, files.arrays, files.panels),
             **snakemake.params,  # noqa: F821
         )

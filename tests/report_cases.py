@@ -33,6 +33,7 @@ def write_files(folder, classes=True, comparison=None, history=True, edited=None
     folder.mkdir(exist_ok=True)
     mesh, folded, arrays, final, _ = write_case(folder, **options)
     numbers = {"panel_class": np.arange(PANELS) % 2 + 1, "thickness": np.full(PANELS, 0.1)}
+    write_iterations(folder / "iterations.npz")
     write_arrays(folder / "classes.npz", numbers if classes else {})
     groups = [(0.1, 10, 9.0)] * 2 if classes else []
     write_record(folder / "classes.json", make_classes(groups))
@@ -57,8 +58,15 @@ def write_files(folder, classes=True, comparison=None, history=True, edited=None
     paths = {"mesh": mesh, "folded": folded, "arrays": arrays, "final": final}
     names = {"class_arrays": "classes.npz", "classes": "classes.json", "quality": "quality.json",
              "mesh_convergence": "study.json", "comparison": "comparison.json",
-             "history": "history.csv"}  # fmt: skip
+             "history": "history.csv", "iterations": "iterations.npz"}  # fmt: skip
     return paths | {key: folder / name for key, name in names.items()}, pictures
+
+
+def write_iterations(path):
+    """Write two iterations, the second 10 mm thinner in all panels."""
+    thickness = np.linspace(0.05, 0.15, PANELS)
+    both = {"thickness": np.stack([thickness, thickness - 0.01])}
+    write_arrays(path, both | {"utilization_panel_mean": np.full((2, PANELS), 0.4)})
 
 
 def read_data(page):

@@ -68,7 +68,8 @@ def folder(tmp_path_factory):
     group.main(shell, [files[0]], *classes, span_m=SPAN, classes=2, settings=settings)
     size.main(
         [files[0]], classes, loop / "history.csv", loop / "history.xlsx", folder / "design.xlsx",
-        loop / "final.json", loop / "final.npz", design=DESIGN | SIZES, settings=stage("size"),
+        [loop / name for name in ("final.json", "final.npz", "iterations.npz")],
+        design=DESIGN | SIZES, settings=stage("size"),
     )  # fmt: skip
     return folder
 

@@ -54,7 +54,8 @@ def _size(folder, analyses, mesh=None):
         group.main(mesh, analyses, *classes, span_m=SPAN, classes=3, settings=stage("analyse"))
     size.main(
         analyses, classes, folder / "history.csv", folder / "history.xlsx",
-        folder.parent / "design.xlsx", folder / "final.json", folder / "final.npz",
+        folder.parent / "design.xlsx",
+        [folder / name for name in ("final.json", "final.npz", "iterations.npz")],
         design=DESIGN, settings=stage("size"),
     )  # fmt: skip
 
@@ -71,6 +72,12 @@ def test_loop_ends_and_is_gathered(loop):
     assert float(rows[-1]["volume_m3"]) == last["volume_m3"]
     final = read_arrays(folder / "final.npz")
     assert final["thickness"].shape == (PANELS,) and "utilization_cell" in final
+    panels = read_arrays(folder / "iterations.npz")
+    for number, path in enumerate(analyses):
+        arrays = read_arrays(path.with_suffix(".npz"))
+        assert np.array_equal(panels["thickness"][number], arrays["thickness"])
+        used = panels["utilization_panel_mean"][number]
+        assert np.array_equal(used, arrays["utilization_panel_mean"])
     book = openpyxl.load_workbook(folder.parent / "design.xlsx", read_only=True)
     assert {"summary", "panels", "history", "loads", "notes"} <= set(book.sheetnames)
     rows = list(book["panels"].iter_rows(values_only=True))

@@ -71,6 +71,7 @@ class LoopPlan:
             csv=f"{self.folder}/history.csv",
             history=f"{self.folder}/history.xlsx",
             design=str(Path(self.folder).parent / "design.xlsx"),
+            panels=f"{self.folder}/iterations.npz",
         )
         return self._task("size", inputs, files)
 

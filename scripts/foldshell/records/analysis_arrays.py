@@ -1,4 +1,4 @@
-"""analysis.npz, final.npz, classes.npz and memory.npz: arrays of the sizing loop.
+"""analysis.npz, final.npz, iterations.npz, classes.npz and memory.npz: arrays of the loop.
 
 Axes: P sized panels, B panels of an edge beam, E elements, K result cells of an element, C
 combinations (strength first), N nodes, D unknowns of the shell model, F those that are free, M
@@ -60,6 +60,17 @@ class AnalysisArrays:
         Without unit.
         """
         return getattr(self, f"edge_beam_utilization_{measure}")
+
+
+@dataclass(frozen=True, kw_only=True)
+class IterationsArrays:
+    """The arrays of iterations.npz: I iterations of a loop, one after the other."""
+
+    thickness: np.ndarray = array("I, P", "m", "thickness in each iteration", required=True)
+    utilization_panel_mean: np.ndarray = array(
+        "I, P", "-", "area mean over a panel in each iteration; nan without an answer",
+        required=True,
+    )  # fmt: skip
 
 
 @dataclass(frozen=True, kw_only=True)

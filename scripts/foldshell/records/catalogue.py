@@ -3,7 +3,12 @@
 from dataclasses import dataclass
 
 from foldshell.records.analysis import AnalysisRecord
-from foldshell.records.analysis_arrays import AnalysisArrays, ClassesArrays, StepMemory
+from foldshell.records.analysis_arrays import (
+    AnalysisArrays,
+    ClassesArrays,
+    IterationsArrays,
+    StepMemory,
+)
 from foldshell.records.claims import ClaimRecord
 from foldshell.records.classes import ClassesRecord
 from foldshell.records.comparison import ComparisonRecord
@@ -62,5 +67,7 @@ ARRAYS = (
     ResultFile("analysis", f"{LOOP}/NN/analysis.npz, {LOOP}/final.npz", AnalysisArrays,
                "arrays of an analysis"),
     ResultFile("memory", f"{LOOP}/NN/memory.npz", StepMemory, "what a step leaves to the next"),
+    ResultFile("iterations", f"{LOOP}/iterations.npz", IterationsArrays,
+               "panels in each iteration"),
     ResultFile("classes", f"{LOOP}/classes.npz", ClassesArrays, "arrays of the grouped design"),
 )  # fmt: skip

@@ -30,7 +30,7 @@ class Check:
     @property
     def words(self) -> str:
         """The check in one line."""
-        share = "" if self.ratio is None else f" ({100 * self.ratio:.0f} % of its limit)"
+        share = "" if self.ratio is None else f" ({describe_share(self.ratio)} of its limit)"
         return f"{self.name}: {format_number(self.value)}, limit {format_number(self.limit)}{share}"
 
 
@@ -81,6 +81,11 @@ def find_ratio(value: float | None, limit: float | None, met: bool | None) -> fl
     upper = met is None or below == bool(met)
     above, under = (abs(value), abs(limit)) if upper else (abs(limit), abs(value))
     return above / under if under else None
+
+
+def describe_share(ratio: float | None) -> str:
+    """Return the share of a limit in whole per cent, a dash where there is none."""
+    return "–" if ratio is None else f"{100 * ratio:.0f} %"
 
 
 def find_governing(checks: Sequence[Check]) -> Check | None:

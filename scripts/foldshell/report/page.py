@@ -21,6 +21,8 @@ STILLS = ("utilization", "thickness")
 SHOWN = {"principal_stress_lines": "principal stress lines", "isolines": "utilization isolines",
          "buckling": "buckling mode", "strain": "strain of the folding"}  # fmt: skip
 """Pictures that the 3D view does not replace."""
+NOTHING_MORE = {"combinations": [], "quantities": [], "iterations": []}
+"""Facts of a view that shows no single combination and no iteration."""
 FILES = {
     "sheet.html": "calculation sheet, to print",
     "design.xlsx": "workbook of the design",
@@ -38,31 +40,34 @@ FILES = {
 def write_design_page(
     files: DesignFiles,
     viewer: ViewerData,
+    more: ViewerData,
     pictures: Mapping[str, str | Path],
     utilization_max: float,
 ) -> str:
-    """Return the page as HTML of at most `SIZE_MAX` bytes; pictures go first where it is larger.
+    """Return the page as HTML of at most `SIZE_MAX` bytes.
 
-    `pictures` are PNG files by name.
+    `more` is what the 3D view shows of single combinations and iterations, `pictures` are PNG
+    files by name. Where the page is larger, pictures go first, then what there is more.
     """
     shown = [show_picture(name, path) for name, path in pictures.items() if name in SHOWN]
-    headers, packed = pack_arrays(viewer.arrays)
+    still = next((name for name in STILLS if name in pictures), None)
     values = {
         "title": files.design.name,
         "description": describe_design(files.design),
         "sections": make_sections(files, utilization_max),
         "links": FILES | _link_pictures(pictures),
-        "facts": viewer.facts | {"arrays": headers},
-        "packed": packed,
     }
-    still = next((name for name in STILLS if name in pictures), None)
-    values["still"] = still and show_picture(still, pictures[still], STILL_WIDTH)
-    page = render("design.html", **values, pictures=shown)
-    if len(page.encode()) > SIZE_MAX:
-        page = render("design.html", **values | {"still": None}, pictures=[])
-    if len(page.encode()) > SIZE_MAX:
-        raise ValueError(f"page of {len(page.encode())} bytes: {SIZE_MAX} at most")
-    return page
+    small = still and show_picture(still, pictures[still], STILL_WIDTH)
+    whole = ViewerData(viewer.arrays | more.arrays, viewer.facts | more.facts)
+    for data, images, picture in ((whole, shown, small), (whole, [], None), (viewer, shown, small),
+                                  (viewer, [], None)):  # fmt: skip
+        headers, packed = pack_arrays(data.arrays)
+        facts = NOTHING_MORE | data.facts | {"arrays": headers}
+        page = render("design.html", **values, facts=facts, packed=packed, pictures=images,
+                      still=picture)  # fmt: skip
+        if len(page.encode()) <= SIZE_MAX:
+            return page
+    raise ValueError(f"page of {len(page.encode())} bytes: {SIZE_MAX} at most")
 
 
 def _link_pictures(pictures: Mapping[str, str | Path]) -> dict[str, str]:

@@ -48,6 +48,10 @@ out vec4 colour;
 void main() { vec2 p = gl_PointCoord;
   if (abs(p.x - 0.5) > 0.5 * p.y || p.y < 0.0) discard; colour = vec4(0.2, 0.2, 0.2, 1.0); }`];
 
+const CREASES = [["flat", 0.8, 0.35, false], ["border", 2.2, 0, false],
+  ["mountain", 1.8, 0, false], ["valley", 1.8, 0, true]];
+const ARROWS = [["loads", [0, 0.32, 0.54]], ["reactions", [0.64, 0, 0.14]]];
+
 class Renderer {
   constructor(canvas, arrays) {
     this.gl = canvas.getContext("webgl2", { antialias: true, preserveDrawingBuffer: true });
@@ -62,6 +66,7 @@ class Renderer {
     this.upload("place", expand(arrays.nodes, 3));
     this.upload("panel", this.perTriangle(arrays.panel));
     this.lines = {};
+    this.arrows = {}; // number of segments by kind
     for (const kind of ["mountain", "valley", "flat", "border"]) this.addLines(kind);
     const marks = arrays.supports;
     this.upload("marks", Float32Array.from({ length: 3 * marks.length },
@@ -142,8 +147,19 @@ class Renderer {
     for (const kind of Object.keys(this.lines)) this.gather(kind, "moved_", values);
   }
 
-  setField(field) {
-    const gl = this.gl, values = this.arrays["field_" + field.name];
+  setArrows(kind, ends) { // ends: six numbers a segment
+    const count = ends.length / 6, pick = (shift) => Float32Array.from({ length: 3 * count },
+      (_, k) => ends[6 * Math.floor(k / 3) + (k % 3) + shift]);
+    this.arrows[kind] = count;
+    this.upload(`${kind}_from`, pick(0));
+    this.upload(`${kind}_to`, pick(3));
+    for (const name of ["moved_from", "moved_to"])
+      this.upload(`${kind}_${name}`, new Float32Array(3 * count));
+    this.upload(`${kind}_along`, new Float32Array(2 * count));
+  }
+
+  setField(field, values) {
+    const gl = this.gl;
     const share = field.at === "node" ? this.expand(values, 1)
       : this.perTriangle(values, field.at === "panel" ? this.arrays.panel : null);
     for (let k = 0; k < share.length; k++)
@@ -193,26 +209,32 @@ class Renderer {
     ["place", "moved", "value", "panel"].forEach((n, k) => this.bind(k, n, k < 2 ? 3 : 1));
     gl.drawArrays(gl.TRIANGLES, 0, this.arrays.triangles.length);
     this.release(4);
+    const thin = Math.min(1, Math.sqrt(350 / this.arrays.panel_thickness.length)) * ratio;
+    if (showLines) this.drawLines(view, CREASES.map(([kind, width, grey, dashed]) =>
+      [kind, this.lines[kind].from.length, width * thin, [grey, grey, grey], dashed ? view.dash : 0]));
+    this.drawLines(view, ARROWS.map(([kind, ink]) => [kind, this.arrows[kind] ?? 0, 2 * ratio, ink, 0]));
     if (showLines) {
-      const line = this.use("line", view);
-      const thin = Math.min(1, Math.sqrt(350 / this.arrays.panel_thickness.length)) * ratio;
-      gl.uniform1f(line.lift, 0.0015);
-      for (const [kind, width, grey, dash] of [["flat", 0.8, 0.35, 0], ["border", 2.2, 0, 0],
-        ["mountain", 1.8, 0, 0], ["valley", 1.8, 0, view.dash]]) {
-        gl.uniform1f(line.width, width * thin);
-        gl.uniform3f(line.ink, grey, grey, grey);
-        gl.uniform1f(line.dash, dash);
-        this.bind(0, kind + "_from", 3, 1); this.bind(1, kind + "_to", 3, 1);
-        this.bind(2, kind + "_moved_from", 3, 1); this.bind(3, kind + "_moved_to", 3, 1);
-        this.bind(4, kind + "_along", 2, 1); this.bind(5, "corner", 2);
-        gl.drawArraysInstanced(gl.TRIANGLES, 0, 6, this.lines[kind].from.length);
-      }
-      this.release(6);
       const mark = this.use("mark", view);
       gl.uniform1f(mark.lift, 0.002);
       this.bind(0, "marks", 3);
       gl.drawArrays(gl.POINTS, 0, this.arrays.supports.length);
       this.release(1);
     }
+  }
+
+  drawLines(view, kinds) { // kind, number of segments, width, ink, length of a dash
+    const gl = this.gl, line = this.use("line", view);
+    gl.uniform1f(line.lift, 0.0015);
+    for (const [kind, count, width, ink, dash] of kinds) {
+      if (!count) continue;
+      gl.uniform1f(line.width, width);
+      gl.uniform3f(line.ink, ...ink);
+      gl.uniform1f(line.dash, dash);
+      this.bind(0, kind + "_from", 3, 1); this.bind(1, kind + "_to", 3, 1);
+      this.bind(2, kind + "_moved_from", 3, 1); this.bind(3, kind + "_moved_to", 3, 1);
+      this.bind(4, kind + "_along", 2, 1); this.bind(5, "corner", 2);
+      gl.drawArraysInstanced(gl.TRIANGLES, 0, 6, count);
+    }
+    this.release(6);
   }
 }

@@ -14,6 +14,13 @@ from foldshell.records.history import HistoryRow
 from foldshell.records.mesh_convergence import CombinationStudy, MeshConvergenceRecord
 from foldshell.records.quality import QualityRecord
 from foldshell.records.table import read_rows
+from foldshell.report.checks import (
+    Check,
+    describe_share,
+    find_governing,
+    list_checks,
+    read_engineering,
+)
 from foldshell.report.history_chart import Series, draw_history
 from foldshell.report.markup import Cell, Table, format_number, make_table
 from foldshell.results.design_view import count_analyses
@@ -64,6 +71,7 @@ class DesignFiles:
     mesh_convergence: MeshConvergenceRecord
     comparison: ComparisonRecord
     history: Sequence[HistoryRow]
+    checks: Sequence[Check] = ()
 
 
 @dataclass(frozen=True)
@@ -93,14 +101,16 @@ def read_files(design: Design, paths: Mapping[str, str | Path]) -> DesignFiles:
 
     Raises `InputError` for a file that is missing or damaged.
     """
+    final = read_analysis(paths["final"])
     return DesignFiles(
         design=design,
-        final=read_analysis(paths["final"]),
+        final=final,
         quality=read_record(paths["quality"], QualityRecord),
         classes=read_record(paths["classes"], ClassesRecord),
         mesh_convergence=read_record(paths["mesh_convergence"], MeshConvergenceRecord),
         comparison=read_comparison(paths["comparison"]),
         history=read_rows(paths["history"], HistoryRow),
+        checks=list_checks(final, read_engineering(Path(paths["final"]).parents[1])),
     )
 
 
@@ -109,6 +119,7 @@ def make_sections(files: DesignFiles, utilization_max: float) -> list[Section]:
     return [
         make_verdict(files.final, files.history),
         *make_warnings(files.final),
+        make_checks(files.checks),
         make_criteria(files.final.criteria),
         make_history(files.history, utilization_max),
         make_headlines(files.final),
@@ -143,6 +154,21 @@ def make_warnings(final: AnalysisRecord) -> list[Section]:
     words = f"of the model: {'; '.join(found)}"
     head = "1 warning" if len(found) == 1 else f"{len(found)} warnings"
     return [Section("Model", Box("bad", words, head))] if found else []
+
+
+def make_checks(checks: Sequence[Check]) -> Section:
+    """Return the checks with the share of its limit that each uses; what governs stands first."""
+    governing = find_governing(checks)
+    if governing is None:
+        return Section("Checks", words="No check has a value: the analysis gave no results.")
+    rows = [
+        (check.name, check.value, check.limit, describe_share(check.ratio), _judge(check.met),
+         check.where)
+        for check in checks
+    ]  # fmt: skip
+    header = ("check", "value", "limit", "of its limit", "met", "where")
+    box = Box("good" if governing.met else "bad", governing.words, "governs")
+    return Section("Checks", box, table=make_table(header, rows))
 
 
 def describe_edits(history: Sequence[HistoryRow]) -> str:

@@ -40,6 +40,9 @@ function describePanel(panel, arrays) {
   return words.join(" · ");
 }
 
+const SAME = { used: "utilization", utilization: "utilization", down: "displacement",
+  displacement: "displacement", thickness: "thickness", class: "class", planarity: "planarity" };
+
 class App {
   constructor(arrays) {
     this.canvas = byId("view");
@@ -47,12 +50,15 @@ class App {
     this.renderer = new Renderer(this.canvas, arrays);
     this.camera = new Camera(arrays.nodes);
     this.chosen = -1;
-    this.fill("field", facts.fields.map((f) => f.words));
-    this.fill("shape", facts.shapes.map((s) => s.words));
-    byId("deform-controls").hidden = !facts.shapes.length;
+    this.fill("combination", ["envelope", ...facts.combinations.map((c) => c.name)]);
+    for (const id of ["combination-part", "arrows-part"])
+      byId(id).hidden = !facts.combinations.length;
+    byId("iterations-part").hidden = facts.iterations.length < 2;
+    for (const id of ["first", "second"]) this.fill(id, facts.iterations);
+    byId("second").value = facts.iterations.length - 1;
+    this.middles = findMiddles(arrays);
     this.listen();
-    this.setField();
-    this.setShape();
+    this.setCombination();
     new ResizeObserver(() => this.draw()).observe(this.canvas);
   }
 
@@ -60,33 +66,104 @@ class App {
     byId(id).replaceChildren(...names.map((name, k) => new Option(name, k)));
   }
 
-  get shape() { return facts.shapes[byId("shape").value]; }
+  get combination() { return byId("combination").value - 1; } // -1: envelope
+
+  get fields() {
+    const single = this.combination, strength = facts.combinations.length
+      ? sizeOf("used")[0] : 0;
+    if (single < 0) return facts.fields;
+    const whole = facts.fields.filter((f) => ["thickness", "class", "planarity"].includes(f.name));
+    return [...facts.quantities.filter((q) => q.name !== "used" || single < strength), ...whole];
+  }
+
+  get shapes() {
+    if (this.combination < 0) return facts.shapes;
+    const { name, drawn } = facts.combinations[this.combination];
+    return [{ name: "displacement", words: `displacement of ${name}`, factor: drawn },
+      ...facts.shapes.filter((s) => s.name !== "displacement")];
+  }
+
+  get shape() { return this.shapes[byId("shape").value]; }
+
+  setCombination() {
+    const single = this.combination, before = facts.combinations[single];
+    const kept = this.shown && SAME[this.shown.name];
+    this.fill("field", this.fields.map((f) => f.words));
+    this.fill("shape", this.shapes.map((s) => s.words));
+    byId("deform-controls").hidden = !this.shapes.length;
+    const number = this.fields.findIndex((f) => (SAME[f.name] ?? f.name) === kept);
+    byId("field").value = Math.max(number, 0);
+    byId("combination-words").textContent = before ? before.words : "largest of all combinations";
+    byId("reactions-words").textContent = describeReactions(single);
+    this.setField();
+    this.setShape();
+    this.setArrows();
+    showSections(this.chosen, single, this.arrays);
+  }
+
+  setArrows() {
+    const single = this.combination, arrays = this.arrays, longest = (kind) =>
+      ARROW_SHARE[kind] * facts.size;
+    for (const kind of ["loads", "reactions"]) byId(kind).disabled = single < 0;
+    const loads = single >= 0 && byId("loads").checked;
+    this.renderer.setArrows("loads", loads
+      ? makeArrows(this.middles, loadsOf(single, arrays), longest("loads"), false) : []);
+    let ends = [];
+    if (single >= 0 && byId("reactions").checked) {
+      const count = 3 * sizeOf("reaction")[1];
+      const tips = Array.from(arrays.reaction_node).flatMap((n) =>
+        [...arrays.nodes.slice(3 * n, 3 * n + 3)]);
+      ends = makeArrows(tips, arrays.reaction.slice(single * count, (single + 1) * count),
+        longest("reactions"), false);
+    }
+    this.renderer.setArrows("reactions", ends);
+    this.draw();
+  }
+
+  compareIterations() {
+    const [first, second] = ["first", "second"].map((id) => Number(byId(id).value));
+    const [field, values] = compareIterations(first, second, this.arrays);
+    this.shown = field;
+    this.renderer.setField(field, values);
+    drawLegend(field);
+    this.draw();
+  }
 
   get factor() {
     return this.shape ? (this.shape.factor * byId("deform").value) / 50 : 0;
   }
 
   setField() {
-    const field = facts.fields[byId("field").value];
-    this.renderer.setField(field);
+    const field = this.fields[byId("field").value], arrays = this.arrays;
+    this.shown = field;
+    this.renderer.setField(field, arrays["field_" + field.name]
+      ?? valuesOf(field, this.combination, arrays));
     drawLegend(field);
     this.draw();
   }
 
   setShape() {
-    this.renderer.setShape(this.shape && this.arrays["shape_" + this.shape.name]);
+    const single = this.combination, shape = this.shape;
+    const own = single >= 0 && shape?.name === "displacement";
+    this.renderer.setShape(own ? movedOf(single, this.arrays)
+      : shape && this.arrays["shape_" + shape.name]);
     this.draw();
   }
 
   choose(panel) {
     this.chosen = panel;
     byId("picked").textContent = describePanel(panel, this.arrays);
+    showSections(panel, this.combination, this.arrays);
     this.draw();
   }
 
   listen() {
     byId("field").onchange = () => this.setField();
     byId("shape").onchange = () => this.setShape();
+    byId("combination").onchange = () => this.setCombination();
+    byId("loads").onchange = byId("reactions").onchange = () => this.setArrows();
+    byId("first").onchange = byId("second").onchange = () => this.compareIterations();
+    byId("compare").onclick = () => this.compareIterations();
     byId("deform").oninput = () => this.draw();
     byId("creases").onchange = () => this.draw();
     byId("home").onclick = () => { this.camera.reset(); this.rotate(0, 0); };
@@ -212,7 +289,11 @@ async function start() {
     const app = new App(await readArrays());
     byId("stage").classList.add("ready");
     if (parent !== window) app.listenToParent();
-    const number = facts.fields.findIndex((f) => f.name === wanted.get("field"));
+    const named = facts.combinations.findIndex((c) => c.name === wanted.get("combination"));
+    if (named >= 0) { byId("combination").value = named + 1; app.setCombination(); }
+    for (const kind of ["loads", "reactions"])
+      if (wanted.has(kind)) { byId(kind).checked = true; app.setArrows(); }
+    const number = app.fields.findIndex((f) => f.name === wanted.get("field"));
     if (number >= 0) { byId("field").value = number; app.setField(); }
     if (wanted.has("deform")) { byId("deform").value = wanted.get("deform"); app.draw(); }
     if (wanted.has("panel")) app.choose(Number(wanted.get("panel")));

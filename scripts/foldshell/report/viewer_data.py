@@ -33,14 +33,51 @@ class ViewerData:
     facts: Json
 
 
-def make_viewer_data(view: DesignView) -> ViewerData:
+@dataclass(frozen=True)
+class Grid:
+    """Triangles of the view, each of `per_triangle` result cells, and nodes along its creases."""
+
+    nodes: np.ndarray
+    triangles: np.ndarray
+    panel: np.ndarray
+    creases: dict[str, np.ndarray]
+    supports: np.ndarray
+    per_triangle: int = 1
+
+    def at_triangles(self, cells: np.ndarray) -> np.ndarray:
+        """Return the largest of the cell values (C,) in each triangle, in their unit."""
+        return cells.reshape(-1, self.per_triangle).max(axis=1)
+
+    def at_nodes(self, values: np.ndarray) -> np.ndarray:
+        """Return the node values (N, ...) of the result mesh that the view keeps, in their unit."""
+        return values[: len(self.nodes)]
+
+
+def make_grid(view: DesignView) -> Grid:
+    """Return the result cells, or the facets alone of a sheet of very many.
+
+    The first nodes of a mesh are the sheet's vertices, and cells follow facet by facet.
+    """
+    state, creases = view.state, view.creases
+    kinds = {kind: getattr(creases, kind) for kind in ("mountain", "valley", "flat", "border")}
+    pairs = state.shell["support_pairs"]
+    if len(state.triangles) <= CELLS_MAX:
+        supports = edge_polyline_nodes(state.cells, pairs)
+        return Grid(state.cells.nodes, state.triangles, state.cell_panel, kinds, supports)
+    facets = state.shell["facets"]
+    ends = {kind: lines[:, [0, -1]] for kind, lines in kinds.items()}
+    return Grid(state.shell["vertices"], facets, state.shell["facet_panel"], ends,
+                 np.unique(pairs), len(state.triangles) // len(facets))  # fmt: skip
+
+
+def make_viewer_data(view: DesignView, grid: Grid | None = None) -> ViewerData:
     """Return the view of a design; fields and shapes that its state lacks are left out.
 
     Arrays: nodes (N, 3) m; triangles (C, 3); panel (C,); mountain, valley, flat, border (K, n)
     nodes along creases; supports (S,) nodes; of each panel thickness (m), utilization, planarity,
     zigzag and strip; and those that `facts["fields"]` and `facts["shapes"]` name.
     """
-    state, grid = view.state, _make_grid(view)
+    state, grid = view.state, grid or make_grid(view)
     arrays = {"nodes": grid.nodes, "triangles": grid.triangles, "panel": grid.panel}
     arrays |= {f"crease_{kind}": nodes for kind, nodes in grid.creases.items()}
     arrays |= {"supports": grid.supports} | _panel_values(state)
@@ -54,43 +91,6 @@ def make_viewer_data(view: DesignView) -> ViewerData:
         shapes.append({"name": name, "words": words, "factor": factor})
     facts = {"fields": fields, "shapes": shapes}
     return ViewerData(arrays | values, facts)
-
-
-@dataclass(frozen=True)
-class _Grid:
-    """Triangles of the view, each of `per_triangle` result cells, and nodes along its creases."""
-
-    nodes: np.ndarray
-    triangles: np.ndarray
-    panel: np.ndarray
-    creases: dict[str, np.ndarray]
-    supports: np.ndarray
-    per_triangle: int = 1
-
-    def at_triangles(self, cells: np.ndarray) -> np.ndarray:
-        """Return the largest of the cell values (C,) in each triangle."""
-        return cells.reshape(-1, self.per_triangle).max(axis=1)
-
-    def at_nodes(self, values: np.ndarray) -> np.ndarray:
-        """Return the node values (N, ...) of the result mesh that the view keeps."""
-        return values[: len(self.nodes)]
-
-
-def _make_grid(view: DesignView) -> _Grid:
-    """Return the result cells, or the facets alone of a sheet of very many.
-
-    The first nodes of a mesh are the sheet's vertices, and cells follow facet by facet.
-    """
-    state, creases = view.state, view.creases
-    kinds = {kind: getattr(creases, kind) for kind in ("mountain", "valley", "flat", "border")}
-    pairs = state.shell["support_pairs"]
-    if len(state.triangles) <= CELLS_MAX:
-        supports = edge_polyline_nodes(state.cells, pairs)
-        return _Grid(state.cells.nodes, state.triangles, state.cell_panel, kinds, supports)
-    facets = state.shell["facets"]
-    ends = {kind: lines[:, [0, -1]] for kind, lines in kinds.items()}
-    return _Grid(state.shell["vertices"], facets, state.shell["facet_panel"], ends,
-                 np.unique(pairs), len(state.triangles) // len(facets))  # fmt: skip
 
 
 def _panel_values(state: DesignState) -> dict[str, np.ndarray]:
@@ -117,7 +117,7 @@ def _pad(state: DesignState, values: np.ndarray) -> np.ndarray:
     return np.append(values, np.full(len(state.edge_beam_thickness), np.nan))
 
 
-def _fields(view: DesignView, grid: _Grid) -> dict[str, tuple]:
+def _fields(view: DesignView, grid: Grid) -> dict[str, tuple]:
     """Return words with unit, values at panels, triangles or nodes, scale, options by name."""
     state = view.state
     thickness = 1e3 * state.panel_thickness
@@ -129,7 +129,7 @@ def _fields(view: DesignView, grid: _Grid) -> dict[str, tuple]:
         name = choose_deflection(state)
         down = -1e3 * grid.at_nodes(state.displacement_at_nodes(name))[:, 2]
         words = f"vertical displacement, down [mm], {name}"
-        fields["displacement"] = words, down, make_scale(down, "cividis"), {"at": "node"}
+        fields["displacement"] = words, down, make_scale(down, "YlGnBu"), {"at": "node"}
     if state.classes is not None:
         fields["class"] = _class_field(state)
     planarity = 100 * _pad(state, state.folded["planarity"])
@@ -139,7 +139,7 @@ def _fields(view: DesignView, grid: _Grid) -> dict[str, tuple]:
     return fields
 
 
-def _utilization_fields(view: DesignView, grid: _Grid) -> dict[str, tuple]:
+def _utilization_fields(view: DesignView, grid: Grid) -> dict[str, tuple]:
     state, limit = view.state, view.sizing.utilization_max
     combinations = f"{state.strength[0]} to {state.strength[-1]}"
     found = {}
@@ -169,7 +169,7 @@ def _class_field(state: DesignState) -> tuple:
     return "class of thickness for fabrication", _pad(state, number), scale, options
 
 
-def _shapes(view: DesignView, grid: _Grid) -> list[tuple[str, str, np.ndarray, float]]:
+def _shapes(view: DesignView, grid: Grid) -> list[tuple[str, str, np.ndarray, float]]:
     """Return name, words, translations (N, 3) m and their factor in the middle of the slider."""
     state, shapes = view.state, []
     if state.usable:

@@ -11,7 +11,8 @@ from foldshell.files.errors import InputError
 from foldshell.files.job_record import FOLDER
 from foldshell.files.whole import TEMPORARY_PREFIX, atomic_path
 from foldshell.records.analysis import AnalysisRecord, write_analysis
-from foldshell.records.analysis_arrays import AnalysisArrays
+from foldshell.records.analysis_arrays import AnalysisArrays, IterationsArrays
+from foldshell.records.arrays import write_typed_arrays
 from foldshell.records.edits import keep_edited
 from foldshell.records.files import REMEDY
 from foldshell.records.history import HistoryRow
@@ -24,11 +25,13 @@ SUPERSEDED = "superseded"
 
 @dataclass(frozen=True)
 class Iterations:
-    """Every analysis, the rows of the history, and the last analysis.npz; thickness (P,) m and
-    utilization (P,), by the measure of the loop, of that analysis, nan without an answer."""
+    """Every analysis, the rows of the history, panels in each of them, and the last analysis.npz;
+    thickness (P,) m and utilization (P,), by the measure of the loop, of that analysis, nan without
+    an answer."""
 
     analyses: list[AnalysisRecord]
     history: list[HistoryRow]
+    panels: IterationsArrays
     last_arrays: Path
     thickness: np.ndarray
     utilization: np.ndarray
@@ -49,13 +52,30 @@ def gather_iterations(json_paths: Sequence[str | Path], span: float, sizing: Siz
     utilization = arrays[-1].utilization(sizing.measure)
     if utilization is None:
         utilization = np.full(len(thicknesses[-1]), np.nan)
-    return Iterations(
-        analyses, history, Path(json_paths[-1]).with_suffix(".npz"), thicknesses[-1], utilization
-    )
+    last = Path(json_paths[-1]).with_suffix(".npz")
+    panels = _stack_panels(arrays)
+    return Iterations(analyses, history, panels, last, thicknesses[-1], utilization)
 
 
-def write_final(json_path: str | Path, arrays_path: str | Path, iterations: Iterations) -> None:
-    """Write final.npz and final.json, which are those of the last analysis."""
+def _stack_panels(arrays: Sequence[AnalysisArrays]) -> IterationsArrays:
+    used = [
+        np.full(len(one.thickness), np.nan)
+        if one.utilization_panel_mean is None
+        else one.utilization_panel_mean
+        for one in arrays
+    ]
+    thickness = np.stack([one.thickness for one in arrays])
+    return IterationsArrays(thickness=thickness, utilization_panel_mean=np.stack(used))
+
+
+def write_final(
+    json_path: str | Path,
+    arrays_path: str | Path,
+    panels_path: str | Path,
+    iterations: Iterations,
+) -> None:
+    """Write iterations.npz, then final.npz and final.json, which are those of the last analysis."""
+    write_typed_arrays(panels_path, iterations.panels)
     with atomic_path(arrays_path) as temporary:
         shutil.copyfile(iterations.last_arrays, temporary)
     write_analysis(json_path, iterations.analyses[-1])

@@ -1,0 +1,157 @@
+"""What the page's 3D view shows of single combinations: fields, shapes, loads, reactions."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from foldshell.loads.cases import make_load_cases, surface_loads
+from foldshell.records.analysis_arrays import IterationsArrays
+from foldshell.records.arrays import read_typed_arrays
+from foldshell.report.viewer_data import COLOURS, Grid, ViewerData
+from foldshell.results.colour_scales import (
+    ColourScale,
+    exaggeration,
+    make_limit_scale,
+    make_scale,
+)
+from foldshell.results.combination_fields import CombinationFields, evaluate_combinations
+from foldshell.results.design_view import DesignView
+from foldshell.results.fields import cell_area
+from foldshell.results.reactions import Reactions, find_reactions
+from foldshell.results.state import DesignState
+from foldshell.settings.stage import StageSettings
+
+QUANTITIES = {
+    "used": ("utilization [-]", "triangle"),
+    "down": ("vertical displacement, down [mm]", "node"),
+    "n1": ("larger principal membrane force of a panel [kN/m]", "panel"),
+    "n2": ("lesser principal membrane force of a panel [kN/m]", "panel"),
+    "m1": ("largest principal moment of a panel, either sign [kNm/m]", "panel"),
+}
+"""What colours a single combination: words with unit, and where its values stand."""
+
+
+def make_more_data(
+    view: DesignView, grid: Grid, settings: StageSettings, iterations: str | Path
+) -> ViewerData:
+    """Return what the view shows of combinations, and the thickness (I, P) m of all iterations of
+    the sizing loop from iterations.npz."""
+    found = make_combination_data(view, grid, find_reactions(view.state, settings), settings)
+    thickness = read_typed_arrays(iterations, IterationsArrays).thickness
+    arrays = found.arrays | {"iteration_thickness": thickness}
+    return ViewerData(arrays, found.facts | {"iterations": list(range(len(thickness)))})
+
+
+def make_combination_data(
+    view: DesignView, grid: Grid, reactions: Reactions | None, settings: StageSettings
+) -> ViewerData:
+    """Return arrays and facts of each combination; nothing without finite displacements.
+
+    Arrays: moved (c, N, 3) m, used (s, T) utilization of strength combinations, sections
+    (c, P, 8) panel means nx, ny, nxy, mx, my, mxy, vx, vy in kN and m, case_force (k, P, 3) kN of
+    each load case on each panel, reaction (c, S, 3) kN at the nodes reaction_node (S,).
+    """
+    state = view.state
+    if reactions is None:
+        return ViewerData({}, {"combinations": [], "quantities": []})
+    found = evaluate_combinations(state, settings.material)
+    moved = np.stack([grid.at_nodes(state.displacement_at_nodes(n)) for n in state.combinations])
+    used = np.stack([grid.at_triangles(values) for values in found.utilization])
+    sections = average_panels(state, found)
+    nodes, forces = gather_reactions(state, reactions)
+    arrays = {
+        "moved": moved,
+        "used": used,
+        "sections": sections,
+        "case_force": sum_cases(state, settings),
+        "reaction": forces,
+        "reaction_node": nodes,
+    }
+    facts = {
+        "combinations": _describe(view, reactions, settings, moved),
+        "quantities": _scales(view, moved, used, sections),
+        "cases": list(reactions.cases),
+        "size": view.size,
+    }
+    return ViewerData(arrays, facts)
+
+
+def average_panels(state: DesignState, found: CombinationFields) -> np.ndarray:
+    """Return area means over each panel of n, m, v, (c, P, 8) kN/m, kNm/m, kN/m."""
+    values = np.concatenate([found.force, found.moment, found.shear], axis=2)
+    area, panel = cell_area(state), state.cell_panel
+    total = np.bincount(panel, area)
+    sums = [
+        [np.bincount(panel, area * values[k, :, i]) / total for i in range(values.shape[2])]
+        for k in range(len(values))
+    ]
+    return np.moveaxis(np.array(sums), 1, 2)
+
+
+def sum_cases(state: DesignState, settings: StageSettings) -> np.ndarray:
+    """Return the resultant (k, P, 3) kN of each load case on each panel."""
+    corner = state.cells.nodes[state.triangles]
+    normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    area = np.linalg.norm(normal, axis=1) / 2
+    normal /= 2 * area[:, None]
+    panel, sized = state.cell_panel, len(state.final.thickness)
+    cases = make_load_cases(settings.loads, settings.material.unit_weight)
+    loads = surface_loads(normal, state.panel_thickness[panel], cases, panel >= sized)
+    return np.array(
+        [[np.bincount(panel, area * loads[:, x, k]) for x in range(3)] for k in range(len(cases))]
+    ).swapaxes(1, 2)
+
+
+def gather_reactions(state: DesignState, reactions: Reactions) -> tuple[np.ndarray, np.ndarray]:
+    """Return the supported vertices (S,) and at each the sum (c, S, 3) kN of the reactions of the
+    nodes that are nearest to it."""
+    vertices = np.unique(state.shell["support_pairs"])
+    away = state.mesh.nodes[reactions.node][:, None] - state.shell["vertices"][vertices]
+    nearest = np.linalg.norm(away, axis=2).argmin(axis=1)
+    sums = np.zeros((len(vertices), *reactions.force.shape[1:]))
+    np.add.at(sums, nearest, reactions.force)
+    return vertices, np.moveaxis(sums, 2, 0)
+
+
+def principal_values(tensor: np.ndarray) -> np.ndarray:
+    """Return the larger and the lesser principal value (2, ...) of xx, yy, xy (..., 3), in the
+    same unit."""
+    mean, half = (tensor[..., 0] + tensor[..., 1]) / 2, (tensor[..., 0] - tensor[..., 1]) / 2
+    radius = np.hypot(half, tensor[..., 2])
+    return np.stack([mean + radius, mean - radius])
+
+
+def _describe(
+    view: DesignView, reactions: Reactions, settings: StageSettings, moved: np.ndarray
+) -> list[dict[str, Any]]:
+    """Return name, words, factors by case, drawing factor and edge resultants of each."""
+    given, found = settings.combinations.all, []
+    for k, name in enumerate(view.state.combinations):
+        words = " + ".join(f"{value:g} {case}" for case, value in given[name].items())
+        edges = [[edge.name, [round(float(v), 1) for v in edge.force[:, k]]]
+                 for edge in reactions.edges]  # fmt: skip
+        factors = [given[name].get(case, 0.0) for case in reactions.cases]
+        found.append({"name": name, "words": words, "factors": factors, "edges": edges,
+                      "drawn": exaggeration(moved[k], view.span)})  # fmt: skip
+    return found
+
+
+def _scales(
+    view: DesignView, moved: np.ndarray, used: np.ndarray, sections: np.ndarray
+) -> list[dict[str, Any]]:
+    """Return the quantities with one scale for all combinations."""
+    limit = view.sizing.utilization_max
+    force, moment = (principal_values(sections[..., k : k + 3]) for k in (0, 3))
+    scales: dict[str, ColourScale] = {
+        "used": make_limit_scale(used, limit),
+        "down": make_scale(-1e3 * moved[..., 2], "YlGnBu"),
+        "n1": make_scale(force[0], "cividis"),
+        "n2": make_scale(force[1], "cividis"),
+        "m1": make_scale(np.abs(moment).max(axis=0), "YlGnBu", zero=True),
+    }
+    return [
+        {"name": name, "words": words, "at": at, "above": "above the limit"}
+        | scales[name].describe(COLOURS)
+        for name, (words, at) in QUANTITIES.items()
+    ]
