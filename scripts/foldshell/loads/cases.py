@@ -25,6 +25,7 @@ class SurfaceLoad:
     value : kN/m3 of a weight, kN/m2 of a pressure
     direction : unit vector in global axes; None is against the normal of each facet
     area : what a pressure refers to, "sheet" (true area) or "plan_abs" (its plan projection)
+    words : what it is
     """
 
     case: str
@@ -32,6 +33,7 @@ class SurfaceLoad:
     value: float
     direction: tuple[float, float, float] | None
     area: str = "sheet"
+    words: str = "load"
 
     def evaluate(self, normal: np.ndarray, thickness: np.ndarray) -> np.ndarray:
         """Return the load (E, 3) kN per m2 of mesh; normal (E, 3) unit, thickness (E,) m."""
@@ -53,11 +55,11 @@ def make_load_cases(loads: Loads, unit_weight: float) -> tuple[SurfaceLoad, ...]
     wind, area = loads.wind * loads.wind_fraction, loads.area_basis
     own, dead, live, along_x, along_y = LOAD_CASES
     return (
-        SurfaceLoad(own, WEIGHT, unit_weight, DOWN),
-        SurfaceLoad(dead, PRESSURE, loads.superimposed_dead, None),
-        SurfaceLoad(live, PRESSURE, loads.live, DOWN, area),
-        SurfaceLoad(along_x, PRESSURE, wind, GLOBAL_X, area),
-        SurfaceLoad(along_y, PRESSURE, wind, GLOBAL_Y, area),
+        SurfaceLoad(own, WEIGHT, unit_weight, DOWN, words="self-weight"),
+        SurfaceLoad(dead, PRESSURE, loads.superimposed_dead, None, words="superimposed dead load"),
+        SurfaceLoad(live, PRESSURE, loads.live, DOWN, area, "live load"),
+        SurfaceLoad(along_x, PRESSURE, wind, GLOBAL_X, area, "wind"),
+        SurfaceLoad(along_y, PRESSURE, wind, GLOBAL_Y, area, "wind"),
     )
 
 

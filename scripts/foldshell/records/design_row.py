@@ -1,9 +1,20 @@
 """The columns of designs.tsv as they stand in tables of results."""
 
 from dataclasses import dataclass
+from typing import Any
 
 from foldshell.records.entry import COUNT, entries, entry
-from foldshell.settings.design import Row
+from foldshell.settings.design import DesignColumns, Row
+from foldshell.settings.field import list_settings
+
+_KNOWN = {known.key: known for known in list_settings(DesignColumns).values()}
+
+
+def _column(key: str, words: str = "", **more: Any) -> Any:
+    """Return a column of the table with the unit and the meaning that the settings give it."""
+    known = _KNOWN[key]
+    meaning = known.meaning[0].lower() + known.meaning[1:].rstrip(".")
+    return entry(meaning, COUNT if known.kind is int else known.unit, words, **more)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -12,19 +23,17 @@ class DesignRow:
 
     design: str = entry("name of the design")
     tags: str = entry("tags of the design, comma-separated")
-    pattern: str = entry("crease pattern")
-    surface: str = entry("target surface, or the mesh file that holds it")
-    span_m: float = entry("side of the square plan", "m", form="general")
-    height_m: float = entry("height of the surface", "m", form="general")
-    zigzag: int = entry("zig-zag polylines of the pattern", COUNT, "zig-zags")
-    strip: int = entry("strip polylines of the pattern", COUNT, "strips")
-    support: str = entry("edges that are supported", words="supported")
-    fold_mode: str = entry("how the pattern is folded")
-    edge_beam_depth_m: float | None = entry(
-        "depth of the edge beam", "m", form="general", default=None
-    )
-    edge_beam_thickness_m: float | None = entry(
-        "thickness of the edge beam", "m", form="general", default=None
+    pattern: str = _column("pattern")
+    surface: str = _column("surface")
+    span_m: float = _column("span_m", form="general")
+    height_m: float = _column("height_m", form="general")
+    zigzag: int = _column("zigzag", "zig-zags")
+    strip: int = _column("strip", "strips")
+    support: str = _column("support", "supported")
+    fold_mode: str = _column("fold_mode")
+    edge_beam_depth_m: float | None = _column("edge_beam_depth_m", form="general", default=None)
+    edge_beam_thickness_m: float | None = _column(
+        "edge_beam_thickness_m", form="general", default=None
     )
 
     @property

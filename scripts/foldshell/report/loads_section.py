@@ -17,10 +17,6 @@ DIRECTIONS = {
     GLOBAL_Y: ("along y", "y"),
 }
 """Directions of load cases in words, and how their arrows point in a sketch."""
-NAMES = {"SW": "self-weight", "SDL": "superimposed dead load", "LL": "live load", "WX": "wind",
-         "WY": "wind"}  # fmt: skip
-FACTORS = {"youngs_modulus": 1e6, "strength": 1e3, "strength_tension": 1e3}
-"""What kPa are divided by for the unit of the setting."""
 
 
 @dataclass(frozen=True)
@@ -59,7 +55,7 @@ def _describe_case(case: SurfaceLoad) -> LoadCase:
     size = f"{case.value:g} kN/m² {basis}"
     if case.kind == WEIGHT:
         size = f"{case.value:g} kN/m³ x thickness"
-    return LoadCase(case.case, f"{NAMES.get(case.case, 'load')} {words}", size, arrows)
+    return LoadCase(case.case, f"{case.words} {words}", size, arrows)
 
 
 def _list_combinations(combinations: Combinations, cases: Sequence[SurfaceLoad]) -> Table:
@@ -77,7 +73,7 @@ def _list_material(material: Material) -> Table:
     for name, about in list_settings(Material).items():
         value = getattr(material, name)
         if isinstance(value, float | int):
-            value = format_number(value / FACTORS.get(name, 1))
+            value = format_number(value / about.convert(1.0))
         unit = f" [{about.unit}]" if about.unit else ""
         rows.append((f"{name.replace('_', ' ')}{unit}", str(value).replace("_", " ")))
     return make_table(("property", "value"), rows)

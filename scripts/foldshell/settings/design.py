@@ -61,7 +61,7 @@ class DesignColumns(Group):
     )  # fmt: skip
     edge_beam_thickness: float = setting(
         0, unit="m", ranges=((0.02, 2),),
-        meaning="Thickness of that strip, which no sizing rule changes; both sizes are given or "
+        meaning="Thickness of the edge beam, which no sizing rule changes; both sizes are given or "
         "none.",
     )  # fmt: skip
 
