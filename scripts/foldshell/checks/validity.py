@@ -17,8 +17,6 @@ Width of a panel: the least altitude of its two facets. Bounds and where they co
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.sparse import coo_array
-from scipy.sparse.csgraph import connected_components
 
 from foldshell.shell.mesh import ShellMesh
 
@@ -29,6 +27,7 @@ OVER_SPAN = 1 / 50
 IDLE = 1e-6
 NEIGHBOURS = 13
 """Panels that a form's radius is fitted to: one and its neighbours."""
+FEW = 1000
 
 
 @dataclass(frozen=True)
@@ -134,10 +133,7 @@ def fit_radii(points: np.ndarray) -> np.ndarray:
     z = a + b x + c y + d x2 + e x y + f y2 by least squares over the nearest points; the principal
     curvatures are those of its Hessian at slope (b, c).
     """
-    from scipy.spatial import cKDTree
-
-    near = cKDTree(points).query(points, NEIGHBOURS)[1]
-    local = points[near] - points[:, None]
+    local = points[_find_nearest(points)] - points[:, None]
     _, _, frame = np.linalg.svd(local - local.mean(axis=1, keepdims=True), full_matrices=False)
     x, y, z = np.einsum("pki,pji->jpk", local, frame)
     terms = np.stack([np.ones_like(x), x, y, x * x, x * y, y * y], axis=-1)
@@ -151,19 +147,32 @@ def fit_radii(points: np.ndarray) -> np.ndarray:
         return np.where(curvature > 1e-9, 1 / curvature, np.inf)
 
 
+def _find_nearest(points: np.ndarray) -> np.ndarray:
+    """Rows (P, k) of the points nearest to each (P, 3), itself among them."""
+    if len(points) <= FEW:  # a tree is not worth the time of its import
+        square = ((points[:, None] - points[None]) ** 2).sum(axis=2)
+        return np.argpartition(square, NEIGHBOURS - 1, axis=1)[:, :NEIGHBOURS]
+    from scipy.spatial import cKDTree
+
+    return cKDTree(points).query(points, NEIGHBOURS)[1]
+
+
 def find_support_runs(mesh: ShellMesh, supported: np.ndarray) -> np.ndarray:
     """Number the connected runs of supported nodes: those that share an element belong together.
 
     `supported` (S,) are node numbers; returns (S,) numbers from 0 in their order.
     """
-    place = np.full(len(mesh.nodes), -1)
-    place[supported] = np.arange(len(supported))
-    held = place[mesh.elements]
-    first = held.max(axis=1, keepdims=True)
-    pairs = np.stack([held, np.broadcast_to(first, held.shape)], axis=-1)[held >= 0]
-    shape = (len(supported), len(supported))
-    links = coo_array((np.ones(len(pairs)), (pairs[:, 0], pairs[:, 1])), shape=shape)
-    return connected_components(links, directed=False)[1]
+    lowest = np.full(len(mesh.nodes), len(mesh.nodes))
+    lowest[supported] = np.arange(len(supported))
+    held = np.zeros(len(mesh.nodes), dtype=bool)
+    held[supported] = True
+    elements = mesh.elements[held[mesh.elements].any(axis=1)]
+    while True:  # the lowest number of each run spreads from element to element
+        before = lowest.copy()
+        least = np.broadcast_to(lowest[elements].min(axis=1, keepdims=True), elements.shape)
+        np.minimum.at(lowest, elements[held[elements]], least[held[elements]])
+        if (lowest == before).all():
+            return np.unique(lowest[supported], return_inverse=True)[1]
 
 
 def _list_facets(mesh: ShellMesh) -> tuple[np.ndarray, np.ndarray]:
