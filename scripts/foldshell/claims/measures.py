@@ -9,6 +9,7 @@ from foldshell.records.analysis import AnalysisRecord
 from foldshell.records.analysis_arrays import AnalysisArrays
 from foldshell.records.measures import Measures
 from foldshell.settings.loads import Combinations
+from foldshell.shell.supports import find_support
 
 SCALARS = (
     "utilization_mean",
@@ -38,8 +39,9 @@ class Layout:
         row, column = np.indices((self.zigzag_count - 1, self.strip_count - 1))
         on_zigzag = (row == 0) | (row == self.zigzag_count - 2)
         on_strip = (column == 0) | (column == self.strip_count - 2)
-        free = {"all": np.zeros_like(on_strip), "zigzag": on_strip, "strip": on_zigzag}
-        return free[self.support].ravel()
+        held = find_support(self.support).where
+        free = (on_zigzag & ("zigzag" not in held)) | (on_strip & ("strip" not in held))
+        return free.ravel()
 
 
 def measure_state(
