@@ -177,11 +177,13 @@ def test_run_as_a_script_it_finds_the_package_of_its_own_name(tmp_path, primary_
     paths = [str(path) for path in write_inputs(tmp_path, primary_values)]
     code = f"""
 import runpy, sys, types
+from snakemake.io import InputFiles, OutputFiles
 sys.path.insert(0, {str(SCRIPT.parent)!r})
-files = types.SimpleNamespace
-job = files(input=files(model={paths[0]!r}, primary={paths[1]!r}),
-            output=files(comparison={paths[2]!r}, workbook={paths[3]!r}),
-            params={{"subdivisions": [1, 2]}})
+job = types.SimpleNamespace(
+    input=InputFiles(fromdict=dict(model={paths[0]!r}, primary={paths[1]!r})),
+    output=OutputFiles(fromdict=dict(comparison={paths[2]!r}, workbook={paths[3]!r})),
+    params={{"subdivisions": [1, 2]}}, wildcards={{}}, rule="compare",
+)
 runpy.run_path({str(SCRIPT)!r}, init_globals={{"snakemake": job}}, run_name="__main__")
 """
     environment = {**os.environ, "PYTHONPATH": ""}
