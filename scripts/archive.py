@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from datetime import UTC, datetime
 from pathlib import Path
 
-from foldshell.archive.bag import write_archive
 from foldshell.archive.content import Study
 from foldshell.engine.job import run_job
+from foldshell.files.libraries import need_library
 from foldshell.files.manifest import read_manifest
 from foldshell.files.whole import hash_data, hash_file, write_json
 from foldshell.settings.archive import Archive
@@ -26,6 +26,10 @@ def main(
     settings: Plain,
 ) -> None:
     """Write `<tag>-<first 8 of the result's hash>.zip`, then archive.json, which names it."""
+    for library in ("bagit", "rocrate"):
+        need_library(library, "archive")
+    from foldshell.archive.bag import write_archive
+
     folder = Path(pointer_path).parent
     found = [read_manifest(Path(results, name, "manifest.json")) for name in designs]
     result = hash_data([manifest.result_sha256 for manifest in found])

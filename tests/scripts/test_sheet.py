@@ -117,6 +117,6 @@ def test_summary_has_a_row_per_design(tmp_path):
 def test_missing_library_is_one_sentence(tmp_path, monkeypatch):
     """What to type, and no file left behind."""
     monkeypatch.setitem(sys.modules, "typst", None)
-    with pytest.raises(InputError, match=r"typst is not installed: type pip install -r envs/"):
+    with pytest.raises(InputError, match=r"typst: is not installed: type .* -r envs/sheets.lock"):
         write_pdf(tmp_path / "a.pdf", "sheet", {})
     assert not list(tmp_path.iterdir())

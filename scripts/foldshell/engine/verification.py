@@ -6,6 +6,7 @@ from pathlib import Path
 
 from foldshell.engine.integrity import Fault, find_faults, find_homes
 from foldshell.engine.repair import repair
+from foldshell.files.libraries import need_library
 
 Said = tuple[list[str], int]
 """Lines to print, and the exit code."""
@@ -29,6 +30,7 @@ def verify_results(results: str | Path = "results", mend: bool = False) -> Said:
 
 def verify_archive(path: str | Path, recomputed: Iterable[str] = ()) -> Said:
     """Return lines on an archive, and the exit code; `recomputed` are designs to compute anew."""
+    need_library("bagit", "archive")
     from foldshell.archive.check import check_bag, check_schemas, check_sums, left_out, unpack
 
     with tempfile.TemporaryDirectory() as scratch:

@@ -5,11 +5,10 @@ import tempfile
 from collections.abc import Mapping
 from pathlib import Path
 
-from foldshell.files.errors import InputError
+from foldshell.files.libraries import need_library
 from foldshell.files.whole import Json, atomic_path
 
 FOLDER = Path(__file__).parent / "templates"
-INSTALL = "pip install -r envs/sheets.lock"
 
 
 def write_pdf(path: str | Path, template: str, files: Mapping[str, bytes]) -> None:
@@ -22,10 +21,7 @@ def write_pdf(path: str | Path, template: str, files: Mapping[str, bytes]) -> No
     InputError
         where typst is not installed, with what to type.
     """
-    try:
-        import typst
-    except ImportError:
-        raise InputError(f"{path}: typst is not installed: type {INSTALL}") from None
+    typst = need_library("typst", "sheets")
     with tempfile.TemporaryDirectory() as folder:
         text = (FOLDER / f"{template}.typ").read_bytes()
         for name, content in {"main.typ": text, **files}.items():
