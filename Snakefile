@@ -59,7 +59,7 @@ rule all:
 
 
 STAGES = ["pattern", "fold", "shell", "ways", "crosscheck", "study", "deliver"]
-for STAGE in [*STAGES, "manifest", "figures", "report", "sheets", "archive", "export", "finish"]:
+for STAGE in [*STAGES, "manifest", "figures", "report", "sheets", "archive", "export", "run"]:
 
     include: f"{RULES}/{STAGE}.smk"
 

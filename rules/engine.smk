@@ -2,22 +2,32 @@
 # on without a name that is gone and says so in one line; a test fails.
 
 import inspect
+import logging
 import time
 from subprocess import CalledProcessError
 
-import snakemake.benchmark
-import snakemake.script
+from snakemake import benchmark as benchmarks, script as scripts
 from snakemake.exceptions import IncompleteCheckpointException, WorkflowError
 
 from foldshell.engine.fork_client import AVAILABLE, ForkServer, NoForkServer
-from foldshell.engine.job_end import describe_end, show_log
+from foldshell.engine.job_end import describe_end
 from foldshell.engine.name_check import NameCheck
 from foldshell.engine.preload import MODULES, POOLS
-from foldshell.settings.places import claim_results
 
-SERVERS, PRIVATE = [], NameCheck()  # the fork server, once the first job may start
+SERVERS = []  # the fork server, once the first job may start
+PRIVATE = NameCheck()
 SCRIPT_FIELDS = "conda_env container_img env_modules shadow_dir rulename wildcards log bench_record"
 RECORD_FIELDS = "running_time cpu_time cpu_usage max_rss data_collected"
+KNOWN = PRIVATE.has(workflow, "workflow", "main_snakefile")
+MAIN_SNAKEFILE = workflow.main_snakefile if KNOWN else f"{workflow.basedir}/Snakefile"
+
+
+def terminal_handler():
+    """Return the handler by which Snakemake writes to a terminal, None where lines are due."""
+    known = PRIVATE.has(logging._handlers, "logging", "DefaultStreamHandler")
+    handler, asked = logging._handlers.get("DefaultStreamHandler"), workflow.output_settings
+    lines_are_due = not known or not handler.stream.isatty() or asked.verbose or asked.quiet
+    return None if lines_are_due else handler
 
 
 def is_target(*names):
@@ -31,12 +41,6 @@ def runs_here():
     return not PRIVATE.has(workflow, "workflow", "local_exec") or workflow.local_exec
 
 
-def main_snakefile():
-    """Return the Snakefile that Snakemake was started with."""
-    PRIVATE.has(workflow, "workflow", "main_snakefile")
-    return getattr(workflow, "main_snakefile", f"{workflow.basedir}/Snakefile")
-
-
 def find_analysis(**wildcards):
     """Return the analysis.json of an iteration, and whether Snakemake knows that it is made."""
     try:
@@ -45,33 +49,29 @@ def find_analysis(**wildcards):
         return str(missing.targetfile), False
 
 
-def run_anew(script, fname, edit):
+def run_anew(job, fname, edit):
     """Start Python anew for a script; what it prints goes to its log and to the terminal."""
-    execute = script._execute_cmd
-    if script.log and not edit:
-        script._execute_cmd = lambda command, **fields: execute(
-            f"( {command} ) 2>&1 | tee {{log:q}} >&2", log=str(script.log[0]), **fields
-        )
-    START_PYTHON(script, fname, edit)
+    execute, log = job._execute_cmd, str(job.log[0]) if job.log and not edit else "/dev/null"
+    job._execute_cmd = lambda command, **fields: execute(
+        f"( {command} ) 2>&1 | tee {{log:q}} >&2", log=log, **fields
+    )
+    START_PYTHON(job, fname, edit)
 
 
-def run_in_fork(script, fname):
+def run_in_fork(job, fname):
     """Run a script in a fork, if it can be, and return how that ended: None if it cannot."""
-    elsewhere = script.conda_env or script.container_img or script.env_modules or script.shadow_dir
-    if elsewhere or not SERVERS:
+    if job.conda_env or job.container_img or job.env_modules or job.shadow_dir or not SERVERS:
         return None
-    log = str(script.log[0]) if script.log else ""
-    affinity, start = script.wildcards.get("design", ""), time.time()
+    log, start = str(job.log[0]) if job.log else "", time.time()
+    pool, affinity = POOLS.get(job.rulename, ""), job.wildcards.get("design", "")
     try:
-        job = SERVERS[0].start(fname, POOLS.get(script.rulename, ""), affinity, log)
+        end = SERVERS[0].start(fname, pool, affinity, log).wait()
     except NoForkServer:
         return None
-    end, record = job.wait(), script.bench_record
-    show_log(log)
-    if record is not None:
-        record.running_time, record.cpu_time = time.time() - start, end.cpu_seconds
-        record.cpu_usage, record.max_rss = 100 * end.cpu_seconds, end.rss_mb
-        record.data_collected = True
+    show_job(log, bool(end.code))
+    if job.bench_record is not None:
+        for name, value in zip(RECORD_FIELDS.split(), end.describe(time.time() - start)):
+            setattr(job.bench_record, name, value)
     return end.code
 
 
@@ -89,8 +89,8 @@ def execute_script(self, fname, edit=False):
         raise
 
 
-SCRIPT = getattr(snakemake.script, "PythonScript", object)
-RECORD = getattr(snakemake.benchmark, "BenchmarkRecord", object)
+SCRIPT = getattr(scripts, "PythonScript", object)
+RECORD = getattr(benchmarks, "BenchmarkRecord", object)
 START_PYTHON = getattr(SCRIPT, "execute_script", None)
 if (
     PRIVATE.has(SCRIPT, "PythonScript", "execute_script _execute_cmd")
@@ -101,8 +101,7 @@ if (
 
 
 onstart:
-    RUN["started"] = True
-    claim_results(RESULTS, SETTINGS.designs)
+    begin_run()
     if runs_here():
         dag, scheduler = workflow.dag, workflow.scheduler
         # The limit of 100 starts a second takes half a core after some hundred jobs.

@@ -110,7 +110,7 @@ rule snakemake_report:
     conda:
         "../envs/foldshell.yaml"
     params:
-        snakefile=main_snakefile(),
+        snakefile=MAIN_SNAKEFILE,
         target="report_contents",
         config=parse_group(type(SETTINGS), config),
     message:

@@ -13,6 +13,7 @@ ENGINE = (REPOSITORY / "rules/engine.smk").read_text()
 SCRIPTS = ["execute_script", "_execute_cmd", "conda_env", "shadow_dir", "bench_record"]
 RUNS = ["job_rate_limiter", "finished_jobs", "_finished", "_needrun", "_len"]
 NAMES = [*SCRIPTS, *RUNS, "data_collected", "targets", "main_snakefile"]
+NAMES += ["DefaultStreamHandler"]
 SNAKEFILE = """
 import os, sys, time
 from types import SimpleNamespace
@@ -21,11 +22,18 @@ SCRIPTS = {scripts!r}
 sys.path.insert(0, SCRIPTS)
 from foldshell.engine.environment import ONE_THREAD
 
-RUN, SETTINGS = {{}}, SimpleNamespace(jobs=SimpleNamespace(fork=True))
+SETTINGS = SimpleNamespace(jobs=SimpleNamespace(fork=True))
 include: "engine.smk"
 
+def begin_run():
+    print("handler:", terminal_handler())
+
+def show_job(log, failed):
+    from foldshell.engine.job_end import show_log
+    show_log(log)
+
 def last_made(wildcards):
-    print("known:", is_target("end"), is_target("other"), main_snakefile())
+    print("known:", is_target("end"), is_target("other"), MAIN_SNAKEFILE)
     path, made = find_analysis(design="a", iteration="00")
     return path
 

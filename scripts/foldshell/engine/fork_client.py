@@ -33,6 +33,11 @@ class JobResult:
     cpu_seconds: float
     rss_mb: float
 
+    def describe(self, seconds: float) -> tuple[float, float, float, float, bool]:
+        """Return wall time and processor time (s), the latter in per cent of a second, memory (MB),
+        and that all are known: in the order of a benchmark record."""
+        return seconds, self.cpu_seconds, 100 * self.cpu_seconds, self.rss_mb, True
+
 
 class Job:
     """A script that runs in the fork `pid`; `end` is called with the fork and how it ended.

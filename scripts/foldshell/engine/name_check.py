@@ -19,5 +19,7 @@ class NameCheck:
 
     def describe(self) -> str:
         """Return one line for a person, empty where nothing is gone."""
+        if not self.gone:
+            return ""
         names = ", ".join(self.gone)
-        return f"warning: this Snakemake has no {names}: the run is slower\n" if names else ""
+        return f"warning: this Snakemake has no {names}: the run is slower, or says less\n"

@@ -111,12 +111,13 @@ def show_progress(progress: Iterable[DesignProgress], cores: int) -> str:
     done = sum(item.done for item in progress)
     total = sum(item.iterations for item in progress)
     left = estimate_left(progress, cores)
-    time = "unknown" if left is None else f"about {_clock(left)}"
+    time = "unknown" if left is None else f"about {show_clock(left)}"
     lines.append(f"{done} of {len(progress)} designs sized, {total} iterations; left: {time}")
     return "\n".join(lines)
 
 
-def _clock(seconds: float) -> str:
+def show_clock(seconds: float) -> str:
+    """Return a time in seconds as a person says it."""
     minutes = round(seconds / 60)
     if minutes < 1:
         return f"{round(seconds)} s"
