@@ -69,11 +69,12 @@ jobs one of some hundred. Its graph has all rules, but not the way back from ana
 
 
 def asks_for_another(path):
-    """Tell whether an analysis asks for another one. A file that cannot be read does not."""
+    """Tell whether an analysis asks for another one. One that cannot be read does: unknown is not
+    ended, and the job that takes the next step says what is wrong with it."""
     try:
         return json.loads(Path(path).read_text())["verdict"] == "continue"
     except (OSError, ValueError, KeyError, TypeError):
-        return False
+        return True
 
 
 def existing_analyses(design, first):
@@ -92,12 +93,11 @@ def existing_analyses(design, first):
 def iterations(wildcards):
     """Return every analysis.json up to the first whose verdict ends the loop.
 
-    A file that cannot be read ends the list; `size` says what is wrong with it. An analysis that
-    is still to be made is returned as what it is waited for, in plain text: the exception, and
-    its own name of the file, have Snakemake look at all jobs once more after each analysis.
-    Before jobs run, all that a former run has left is returned at once: Snakemake then looks at
-    a finished study three times, where following it analysis by analysis took thirty looks. What
-    of it has to be made anew is followed one by one as soon as the first of it is made.
+    An analysis that is still to be made is returned as what it is waited for, in plain text: the
+    exception, and its own name of the file, have Snakemake look at all jobs once more after each
+    analysis. All that a former run has left is returned at once: Snakemake then looks at a finished
+    study three times, where following it analysis by analysis took thirty looks, and what need not
+    be made anew is there. What has to be is followed one by one as soon as the first of it is made.
     """
     if REPORTING:
         return existing_analyses(wildcards.design, 0)[-1:]
@@ -105,9 +105,7 @@ def iterations(wildcards):
     for number in range(100):
         path, made = find_analysis(design=wildcards.design, iteration=f"{number:02d}")
         if not made:
-            if not RUN["started"] and (former := existing_analyses(wildcards.design, number)):
-                return former
-            return [path]
+            return files + (existing_analyses(wildcards.design, number) or [path])
         files.append(path)
         if not asks_for_another(files[-1]):
             break

@@ -11,7 +11,7 @@ def choose_loop():
     if SETTINGS.loop != "auto":
         return SETTINGS.loop
     if CHOSEN not in os.environ:
-        count = len(names_of_tag(SETTINGS.study))
+        count = len(with_tags(SETTINGS.study))
         os.environ[CHOSEN] = "steps" if count <= STEPS_MAX and runs_here() else "whole"
         if os.environ[CHOSEN] == "whole":
             print(f"loop: whole, one job for each of {count} designs", file=sys.stderr)

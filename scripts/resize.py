@@ -3,6 +3,7 @@
 from pathlib import Path
 
 from foldshell.engine.job import run_job
+from foldshell.files.errors import InputError
 from foldshell.records.analysis_arrays import StepMemory
 from foldshell.records.arrays import read_typed_arrays, write_typed_arrays
 from foldshell.records.edits import recorded_workbook
@@ -31,6 +32,8 @@ def main(
     """Write thickness.xlsx, memory.npz and written.json of the iteration after `json_path`."""
     sizing = read_stage(settings, Sizing).sizing
     analysis, arrays = read_iteration(json_path, arrays_path)
+    if not analysis.goes_on:
+        raise InputError(f"{json_path}: verdict {analysis.verdict}: no step follows, start again")
     memory = read_typed_arrays(previous_memory, StepMemory) if previous_memory else None
     following = take_step(analysis, arrays, memory, sizing)
     new, old = following.thickness, arrays.thickness

@@ -119,6 +119,21 @@ def test_a_deleted_analysis_is_made_anew_and_all_ends_as_before(code, copied, fi
     assert results(copied) == results(finished)
 
 
+@pytest.mark.parametrize("iteration", ["01", "last"])
+def test_an_analysis_that_cannot_be_read_is_not_taken_for_the_end(code, copied, iteration):
+    """The design fails with a sentence that names the file; the other one and its results stay."""
+    count = last_iteration(copied, "tiny-dome")["iteration"]
+    number = f"{count:02d}" if iteration == "last" else iteration
+    broken = copied / f"results/tiny-dome/sizing/{number}/analysis.json"
+    final = hashes(copied, "results/tiny-dome/sizing/final.*")
+    broken.write_text(broken.read_text()[:40])
+    done = run(code, copied, TARGET)
+    assert done.returncode == 1
+    assert f"sizing/{number}/analysis.json: cannot be read as JSON" in done.stderr
+    left = hashes(copied, "results/tiny-dome/sizing/final.*")
+    assert all(left[name] == digest for name, digest in final.items() if name in left)
+
+
 def test_iterations_left_over_from_before_an_edit_are_removed(code, copied):
     loop = copied / "results/tiny-dome/sizing"
     count = last_iteration(copied, "tiny-dome")["iteration"] + 1

@@ -7,21 +7,28 @@ What has gone wrong is printed above it; everything else stands in Snakemake's o
 import logging
 import shutil
 import sys
+import threading
 import time
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import replace
 from pathlib import Path
-from typing import Any, TextIO
+from typing import TextIO
 
 from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
 
 from foldshell.engine.progress import DesignProgress, estimate_left, read_progress, show_clock
-from foldshell.files.whole import SECONDS, read_json
+from foldshell.files.errors import InputError
+from foldshell.files.whole import SECONDS
+from foldshell.records.analysis import AnalysisRecord, read_analysis
+from foldshell.records.files import TimeRecord, read_record
 
 PAUSE = 0.2
 """Seconds between two drawings, at least."""
-LOOP = "analyse"
+GLANCE = 2.0
+"""Seconds between two looks at loops that run as one job each."""
+STEP, WHOLE = "analyse", "size"
+"""Rules whose jobs write analyses."""
 
 
 class LiveView(LogHandlerBase):
@@ -55,6 +62,9 @@ class LiveView(LogHandlerBase):
         self._running: dict[int, str] = {}
         self._steps = (0, 0)
         self._lines, self._drawn = 0, 0.0
+        self._begun: dict[str, float] = {}
+        self._ended = threading.Event()
+        threading.Thread(target=self._watch, daemon=True).start()
 
     def emit(self, record: logging.LogRecord) -> None:
         """Take note of a record of Snakemake, and draw anew."""
@@ -74,23 +84,48 @@ class LiveView(LogHandlerBase):
         design = str(wildcards.get("design", ""))
         self._jobs[record.jobid] = record.rule_name, design, str(wildcards.get("iteration", ""))
         self._running[record.jobid] = f"{record.rule_name} {design}".strip()
+        if record.rule_name == WHOLE:
+            self._begun[design] = time.time() - 1
         self._draw()
 
     def _end(self, job: int) -> None:
         self._running.pop(job, None)
         rule, design, iteration = self._jobs.pop(job, ("", "", ""))
-        if rule != LOOP:
-            return
-        folder = self._results / design / "sizing" / iteration
+        if rule == STEP:
+            self._take(design, int(iteration))
+        elif rule == WHOLE and design in self._begun:
+            self._advance(design, self._begun.pop(design))
+
+    def _watch(self) -> None:
+        """Look for new analyses of loops that run as one job each."""
+        while not self._ended.wait(GLANCE):
+            with self.lock:
+                for design, since in self._begun.items():
+                    self._advance(design, since)
+                if self._begun:
+                    self._draw()
+
+    def _advance(self, design: str, since: float) -> None:
+        """Take the analyses that a loop has written since it began."""
+        number = self._designs[design].iterations if design in self._designs else 0
+        path = self._results / design / "sizing" / f"{number:02d}" / "analysis.json"
+        while path.is_file() and path.stat().st_mtime >= since and self._take(design, number):
+            number += 1
+            path = path.parents[1] / f"{number:02d}" / path.name
+
+    def _take(self, design: str, iteration: int) -> bool:
+        """Take note of an analysis; return whether it can be read."""
+        folder = self._results / design / "sizing" / f"{iteration:02d}"
         try:
-            report = {"iteration": int(iteration), **read_json(folder / "analysis.json")}
-            seconds = float(read_json(folder / SECONDS)["seconds"])
-        except (OSError, ValueError, KeyError, TypeError):
-            return
+            last = read_analysis(folder / "analysis.json")
+            seconds = read_record(folder / SECONDS, TimeRecord).elapsed
+        except InputError:
+            return False
         known = self._designs.get(design, DesignProgress(design, 0, None, 0.0))
         self._designs[design] = replace(
-            known, iterations=int(iteration) + 1, last=report, seconds=known.seconds + seconds
+            known, iterations=iteration + 1, last=last, seconds=known.seconds + seconds
         )
+        return True
 
     def print_above(self, text: str) -> None:
         """Print what is to stay, above the view."""
@@ -101,6 +136,7 @@ class LiveView(LogHandlerBase):
 
     def close(self) -> None:
         """Take the view away."""
+        self._ended.set()
         self._erase()
         self._stream.flush()
         super().close()
@@ -139,15 +175,16 @@ class LiveView(LogHandlerBase):
 
 
 def _describe(item: DesignProgress) -> str:
-    report: Mapping[str, Any] = item.last or {}
+    last: AnalysisRecord | None = item.last
+    verdict = last.verdict if last else "-"
+    used, volume = (last.utilization_panel_mean_max, last.volume_m3) if last else (None, None)
     return (
-        f"{item.design:<40.40} {item.iterations - 1:>3}  {report.get('verdict', '-'):<20}"
-        f" {_number(report, 'utilization_panel_mean_max'):>8}  {_number(report, 'volume_m3'):>9} m3"
+        f"{item.design:<40.40} {max(0, item.iterations - 1):>3}  {verdict:<20}"
+        f" {_number(used):>8}  {_number(volume):>9} m3"
     )
 
 
-def _number(report: Mapping[str, Any], key: str) -> str:
-    value = report.get(key)
+def _number(value: float | None) -> str:
     return "-" if value is None else f"{value:.3f}"
 
 

@@ -1,14 +1,16 @@
 """The view of a run on a terminal, from records as Snakemake's logger gives them."""
 
 import io
-import json
 import logging
+import os
 
 import pytest
 from snakemake_interface_logger_plugins.common import LogEvent
 
 from foldshell.engine import live_view
 from foldshell.engine.live_view import LiveView, describe_results
+from foldshell.records.analysis import write_analysis
+from record_cases import make_analysis
 
 
 def record(event=None, level=logging.INFO, text="", **fields):
@@ -19,13 +21,11 @@ def record(event=None, level=logging.INFO, text="", **fields):
     return made
 
 
-def write_analysis(results, design, iteration, verdict):
+def write(results, design, iteration, verdict):
     """Write what the view reads of an analysis."""
-    folder = results / design / "sizing" / f"{iteration:02d}"
-    folder.mkdir(parents=True)
-    report = {"verdict": verdict, "reason": "", "utilization_panel_mean_max": 0.5, "volume_m3": 2.0}
-    (folder / "analysis.json").write_text(json.dumps(report))
-    (folder / "seconds.json").write_text(json.dumps({"seconds": 60.0}))
+    known = {"iteration": iteration, "verdict": verdict, "reason": "why", "volume_m3": 2.0}
+    made = make_analysis(**known, utilization_panel_mean_max=0.5, seconds=60.0)
+    write_analysis(results / design / f"sizing/{iteration:02d}/analysis.json", made)
 
 
 @pytest.fixture
@@ -43,15 +43,29 @@ def run_job(view, number, rule, wildcards):
 
 def test_it_shows_designs_iteration_verdict_and_time_left(view, tmp_path):
     assert view.describe()[0].startswith("0 of 2 designs sized")
-    write_analysis(tmp_path, "dome", 0, "continue")
+    write(tmp_path, "dome", 0, "continue")
     run_job(view, 1, "analyse", {"design": "dome", "iteration": "00"})
     rows = view.describe()
     assert "dome" in rows[0] and " 0 " in rows[0] and "continue" in rows[0] and "0.500" in rows[0]
     assert "1 of 9 steps" in rows[1] and "left: about 14 min" in rows[1]
-    write_analysis(tmp_path, "dome", 1, "converged")
+    write(tmp_path, "dome", 1, "converged")
     run_job(view, 2, "analyse", {"design": "dome", "iteration": "01"})
     assert "converged" in view.describe()[0]
     assert "1 of 2 designs sized" in view.describe()[1]
+
+
+def test_a_loop_in_one_job_is_looked_at_while_it_runs(view, tmp_path, monkeypatch):
+    """What an earlier run has left does not count."""
+    write(tmp_path, "dome", 0, "converged")
+    os.utime(tmp_path / "dome/sizing/00/analysis.json", (0, 0))
+    fields = {"jobid": 1, "rule_name": "size", "wildcards": {"design": "dome"}}
+    view.emit(record(LogEvent.JOB_INFO, **fields))
+    view._advance("dome", view._begun["dome"])
+    assert view.describe()[0].startswith("0 of 2")
+    for number in range(3):
+        write(tmp_path, "dome", number, "continue")
+    view._advance("dome", view._begun["dome"])
+    assert view.describe()[0].split()[:3] == ["dome", "2", "continue"]
 
 
 def test_a_job_that_runs_is_named(view):
@@ -72,14 +86,14 @@ def test_lines_are_drawn_over_and_errors_stay(view):
 
 def test_a_terminal_of_few_lines_shows_the_designs_in_their_loop_first(view, tmp_path):
     for number, (design, verdict) in enumerate([("dome", "converged"), ("arch", "continue")]):
-        write_analysis(tmp_path, design, 0, verdict)
+        write(tmp_path, design, 0, verdict)
         run_job(view, number, "analyse", {"design": design, "iteration": "00"})
     rows = view.describe(1)
     assert rows[0].startswith("arch") and rows[1] == "... and 1 more"
 
 
 def test_the_end_is_a_table_with_the_page_to_open(tmp_path):
-    write_analysis(tmp_path, "dome", 0, "converged")
+    write(tmp_path, "dome", 0, "converged")
     page = tmp_path / "studies/mine/report.html"
     page.parent.mkdir(parents=True)
     page.touch()
