@@ -14,7 +14,7 @@ from PIL import Image
 
 from foldshell.figures.camera import Camera
 from foldshell.figures.painter import paint_scenes
-from foldshell.figures.scene import AMBIENT, DIFFUSE, SUPPORT_COLOUR, Lines, Scene
+from foldshell.figures.scene import AMBIENT, DIFFUSE, SUPPORT_COLOUR, Lines, Scene, bring_near
 
 OPENGL_LIBRARIES = ("libEGL.so.1", "libOSMesa.so.8", "libOSMesa.so")
 OVERSAMPLING = 2
@@ -31,7 +31,8 @@ def render_scenes(
     a segmentation fault.
     """
     draw = draw_scenes if has_opengl() else paint_scenes
-    return draw(scenes, cameras, size)
+    near = [bring_near(scene, camera) for scene, camera in zip(scenes, cameras, strict=True)]
+    return draw([scene for scene, _ in near], [camera for _, camera in near], size)
 
 
 def has_opengl() -> bool:

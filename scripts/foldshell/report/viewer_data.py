@@ -70,6 +70,12 @@ def make_grid(view: DesignView) -> Grid:
                  np.unique(pairs), len(state.triangles) // len(facets))  # fmt: skip
 
 
+def _bring_near(nodes: np.ndarray) -> np.ndarray:
+    """Nodes (N, 3) m about their middle where single precision has too few digits for them."""
+    far = np.abs(nodes).max() > 100 * np.ptp(nodes, axis=0).max()
+    return nodes - nodes.mean(axis=0) if far else nodes
+
+
 def make_viewer_data(view: DesignView, grid: Grid | None = None) -> ViewerData:
     """Return the view of a design; fields and shapes that its state lacks are left out.
 
@@ -78,7 +84,7 @@ def make_viewer_data(view: DesignView, grid: Grid | None = None) -> ViewerData:
     zigzag and strip; and those that `facts["fields"]` and `facts["shapes"]` name.
     """
     state, grid = view.state, grid or make_grid(view)
-    arrays = {"nodes": grid.nodes, "triangles": grid.triangles, "panel": grid.panel}
+    arrays = {"nodes": _bring_near(grid.nodes), "triangles": grid.triangles, "panel": grid.panel}
     arrays |= {f"crease_{kind}": nodes for kind, nodes in grid.creases.items()}
     arrays |= {"supports": grid.supports} | _panel_values(state)
     fields, values = [], {}

@@ -21,7 +21,7 @@ from foldshell.figures.pictures import (
     specify_utilization,
 )
 from foldshell.figures.render import render_scenes
-from foldshell.figures.scene import Scene
+from foldshell.figures.scene import Lines, Scene
 from foldshell.results.colour_scales import ABOVE, COMPRESSION, TENSION, exaggeration
 from foldshell.results.design_view import make_design_view
 from foldshell.settings.material import Material
@@ -80,6 +80,22 @@ def test_rendered_triangle_is_where_the_camera_projects_it():
     a, b, c = (camera.project(points) * [1, -1] + 1) * 100
     area = abs((b - a)[0] * (c - a)[1] - (b - a)[1] * (c - a)[0]) / 2
     assert (image[..., 1] < 128).sum() == pytest.approx(area, rel=0.03)
+
+
+def test_a_scene_far_from_the_origin_looks_like_one_near_it():
+    """On a national grid single precision has 0.5 m left: the picture must not know it."""
+    rng = np.random.default_rng(3)
+    points, triangles = rng.uniform(-3, 3, (30, 3)), rng.integers(0, 30, (20, 3))
+    colours = rng.integers(0, 255, (20, 3), dtype=np.uint8)
+    images = []
+    for place in (np.zeros(3), np.array([690_000.0, 5_334_000.0, 520.0])):
+        moved = points + place
+        line = Lines(moved[:4][None], (0, 0, 0), 2.0)
+        scene = Scene(moved, triangles, colours, (line,), moved[:2], 0.3)
+        camera = fit_camera(moved, SIZE[0] / SIZE[1])
+        images += render_scenes([scene], [camera], SIZE)
+    differ = (np.abs(images[0].astype(int) - images[1]) > 30).any(axis=-1).mean()
+    assert (images[0] < 250).any(axis=-1).mean() > 0.1 and differ < 0.002
 
 
 def test_second_scene_is_not_the_first_again():

@@ -104,3 +104,18 @@ def test_limit_of_utilization(tmp_path, value):
     field = next(f for f in found.facts["fields"] if f["name"] == "utilization")
     assert field["limit"] == (1.0 if value > 1 else None)
     assert field["above"] == ("up to 1.70" if value > 1 else "none")
+
+
+def test_a_sheet_far_from_the_origin_is_shown_about_its_middle(tmp_path):
+    """The page holds single precision: 0.5 m at the coordinates of a national grid."""
+    near, state = view_of(tmp_path)
+    place = np.array([690_000.0, 5_334_000.0, 520.0])
+    moved = replace(
+        state,
+        cells=replace(state.cells, nodes=state.cells.nodes + place),
+        shell={**state.shell, "vertices": state.shell["vertices"] + place},
+    )
+    far = make_viewer_data(make_design_view(moved, 5.0, Sizing(), Material()))
+    assert np.abs(far.arrays["nodes"]).max() < 10
+    sizes = [np.ptp(data.arrays["nodes"], axis=0) for data in (near, far)]
+    assert sizes[1] == pytest.approx(sizes[0], abs=1e-8)
