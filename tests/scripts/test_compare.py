@@ -177,11 +177,17 @@ def test_run_as_a_script_it_finds_the_package_of_its_own_name(tmp_path, primary_
     paths = [str(path) for path in write_inputs(tmp_path, primary_values)]
     code = f"""
 import runpy, sys, types
-from snakemake.io import InputFiles, OutputFiles
 sys.path.insert(0, {str(SCRIPT.parent)!r})
+
+class Files(list):  # as Snakemake's: by number and by name
+    def __init__(self, **named):
+        super().__init__(named.values())
+        self.__dict__.update(named)
+        self.get, self.items = named.get, named.items
+
 job = types.SimpleNamespace(
-    input=InputFiles(fromdict=dict(model={paths[0]!r}, primary={paths[1]!r})),
-    output=OutputFiles(fromdict=dict(comparison={paths[2]!r}, workbook={paths[3]!r})),
+    input=Files(model={paths[0]!r}, primary={paths[1]!r}),
+    output=Files(comparison={paths[2]!r}, workbook={paths[3]!r}),
     params={{"subdivisions": [1, 2]}}, wildcards={{}}, rule="compare",
 )
 runpy.run_path({str(SCRIPT)!r}, init_globals={{"snakemake": job}}, run_name="__main__")
