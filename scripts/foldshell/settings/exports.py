@@ -3,7 +3,8 @@
 from foldshell.settings.field import Group, setting, settings_group
 
 FORMATS = (
-    "3dm", "obj", "stl", "ply", "glb", "vtu", "fold", "panels", "nesting",
+    "3dm", "ifc", "saf", "s2k", "inp", "opensees", "obj", "stl", "ply", "glb", "vtu", "fold",
+    "panels", "nesting",
 )  # fmt: skip
 
 
