@@ -1,16 +1,18 @@
 """Files that are either whole or absent: write to a temporary name, then rename."""
 
+import errno
 import glob
 import hashlib
 import json
 import os
 import shutil
 import signal
+import stat
 import zipfile
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Any
+from typing import Any, BinaryIO
 
 import numpy as np
 
@@ -148,13 +150,23 @@ def read_arrays(path: str | Path) -> dict[str, np.ndarray]:
         return {name: data[name] for name in data.files}
 
 
+def open_regular(path: str | Path) -> BinaryIO:
+    """Open a plain file for reading; raise OSError for a folder, and for a pipe or a device, which
+    would be waited for without end."""
+    number = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0))
+    if not stat.S_ISREG(os.fstat(number).st_mode):
+        os.close(number)
+        raise OSError(errno.EINVAL, "not a plain file", str(path))
+    return os.fdopen(number, "rb")
+
+
 def read_small_file(path: str | Path, largest: int, allowed: str) -> bytes:
     """Read a file of at most `largest` bytes that a person may have put there.
 
     Raises `InputError` that says what is wrong and, for a larger one, what is `allowed`.
     """
     try:
-        with Path(path).open("rb") as stream:
+        with open_regular(path) as stream:
             data = stream.read(largest + 1)
     except FileNotFoundError:
         raise InputError(f"{path}: no such file") from None

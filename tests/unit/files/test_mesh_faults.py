@@ -1,5 +1,6 @@
 """Mesh files that programs write and that are damaged: read right, or refused with the reason."""
 
+import os
 from pathlib import Path
 
 import numpy as np
@@ -83,3 +84,20 @@ def test_a_default_surface_is_checked_with_its_design(tmp_path):
     make_settings(config)
     with pytest.raises(InputError, match="counts 100 triangles"):
         load_study(config)
+
+
+def test_what_is_no_plain_file_is_refused_at_once(tmp_path):
+    """A pipe would be waited for without end, as a table and as a surface."""
+    (tmp_path / "folder.obj").mkdir()
+    os.mkfifo(tmp_path / "pipe.obj")
+    (tmp_path / "gone.obj").symlink_to(tmp_path / "nothing")
+    for name, reason in (
+        ("folder", "plain file|directory"),
+        ("pipe", "plain file"),
+        ("gone", "no such"),
+    ):
+        with pytest.raises(InputError, match=reason):
+            read_surface(tmp_path / f"{name}.obj", 6.0)
+    os.mkfifo(tmp_path / "pipe.tsv")
+    with pytest.raises(InputError, match=r"pipe\.tsv: cannot be read: not a plain file"):
+        load_study({"designs": str(tmp_path / "pipe.tsv")})

@@ -1,8 +1,6 @@
 """One reader for mesh files: the list of formats, what is no mesh at all, and the dispatch."""
 
-import os
 import re
-import stat
 from collections.abc import Callable
 from pathlib import Path
 
@@ -13,6 +11,7 @@ from foldshell.files.meshes.obj import parse_obj
 from foldshell.files.meshes.off import parse_off
 from foldshell.files.meshes.ply import parse_ply
 from foldshell.files.meshes.stl import parse_stl
+from foldshell.files.whole import open_regular
 
 LARGEST_FILE = 500_000_000
 _PARSERS: dict[str, Callable[[bytes], Mesh]] = {
@@ -78,17 +77,13 @@ def _read_bytes(path: Path) -> bytes:
     if path.suffix.lower() not in FORMATS:
         raise InputError(f"{path}: suffix {path.suffix!r}: one of {', '.join(FORMATS)} is allowed")
     try:
-        with open(os.open(path, os.O_RDONLY | os.O_NONBLOCK), "rb") as stream:
-            if not stat.S_ISREG(os.fstat(stream.fileno()).st_mode):
-                raise InputError(f"{path}: not a file: a mesh file is needed")
+        with open_regular(path) as stream:
             data = stream.read(LARGEST_FILE + 1)
     except FileNotFoundError:
         raise InputError(f"{path}: no such file: a mesh file is needed") from None
-    except IsADirectoryError:
-        raise InputError(f"{path}: a folder: a mesh file is needed") from None
     except (OSError, ValueError) as error:
         reason = getattr(error, "strerror", None) or error
-        raise InputError(f"{path}: cannot be read: {reason}") from None
+        raise InputError(f"{path}: cannot be read: {reason}: a mesh file is needed") from None
     if len(data) > LARGEST_FILE:
         raise InputError(
             f"{path}: more than {LARGEST_FILE / 1e6:.0f} MB: a smaller mesh is allowed"
