@@ -1,6 +1,5 @@
 """Rules study_figures: charts, and all_designs: pages, from result folders."""
 
-import csv
 import json
 
 import numpy as np
@@ -10,8 +9,11 @@ import all_designs
 import study_figures
 from figure_cases import COMBINATIONS, write_case
 from foldshell.figures.study_data import NUMBERS
+from foldshell.records.summary import SummaryRow
+from foldshell.records.table import write_rows
 from foldshell.settings.make import make_settings
 from foldshell.settings.stages import stage_parameters
+from record_cases import make_summary
 
 SETTINGS = stage_parameters(make_settings({}), "size") | {"combinations": COMBINATIONS}
 FILES = ("shell/mesh.npz", "folded/folded.npz", "sizing/final.npz", "sizing/final.json",
@@ -26,13 +28,10 @@ def write_results(folder, **designs):
         for path, place in zip(write_case(folder / name, **options), FILES, strict=True):
             (folder / name / place).parent.mkdir(exist_ok=True)
             path.rename(folder / name / place)
-        rows.append({"design": name, "tags": "supports", "pattern": "miura", "surface": "arch",
-                     "support": name, "state": "converged",
-                     **dict.fromkeys(NUMBERS, 1)})  # fmt: skip
-    with (folder / "summary.csv").open("w", newline="") as stream:
-        writer = csv.DictWriter(stream, rows[0])
-        writer.writeheader()
-        writer.writerows(rows)
+        numbers = dict.fromkeys(NUMBERS, 1.0) | {"zigzag": 1, "strip": 1}
+        row = make_summary(design=name, tags="supports", surface="arch", support=name, **numbers)
+        rows.append(row)
+    write_rows(folder / "summary.csv", SummaryRow, rows)
 
 
 def test_all_figures_are_written(tmp_path):
