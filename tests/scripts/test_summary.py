@@ -93,6 +93,47 @@ def test_columns_begin_as_in_the_contract():
     }  # fmt: skip
 
 
+def test_every_column_is_that_of_the_file_it_comes_from(tmp_path):
+    """Each number of each file differs from every other, so that no column can hold another's."""
+    folder = tmp_path / "results/a"
+    edge = {"edge_beam_volume_m3": 7.7, "edge_beam_utilization_max": 0.66}
+    warnings = ("3 of 210 panels are thick", "another sentence")
+    write_results(
+        folder, iterations=3, mesh_subdivisions=6, governing_combination="S1",
+        edited_panels=(3, 8), model_warnings=warnings, **edge,
+    )  # fmt: skip
+    quality = make_quality(edge_strain_max=0.0123, planarity_max=0.0045)
+    write_record(folder / "folded/quality.json", quality)
+    convergence = make_convergence(mesh_error=0.021, buckling_mesh_error=0.17)
+    write_record(folder / "mesh_convergence.json", convergence)
+    write_record(folder / "crosscheck/comparison.json", make_comparison(True))
+    design = make_design("a") | {"edge_beam_depth_m": 0.41, "edge_beam_thickness_m": 0.23}
+    paths = tmp_path / "summary.csv", tmp_path / "summary.xlsx"
+    summary.main([design], tmp_path / "results", SETTINGS, *paths)
+    with paths[0].open(encoding="utf-8", newline="") as stream:
+        (row,) = csv.DictReader(stream)
+    from_table = {key: str(value) for key, value in design.items() if key != "mesh_subdivisions"}
+    last = {
+        "utilization_max": "0.95", "utilization_p99": "0.9", "utilization_mean": "0.31",
+        "utilization_panel_mean_max": "0.87", "displacement_vertical_max_m": "0.0312",
+        "governing_combination": "S1", "volume_m3": "88.0", "mesh_subdivisions": "6",
+        "settings_hash": "0123456789ab", "edge_beam_volume_m3": "7.7",
+        "edge_beam_utilization_max": "0.66", "state": "converged",
+        "reason": "all criteria are met",
+    }  # fmt: skip
+    made = {
+        "volume_per_area_m": "0.08", "buckling_factor_min": "21.5", "iterations": "3",
+        "model_warnings": "; ".join(warnings), "edited_panels": "2",
+    }  # fmt: skip
+    others = {
+        "edge_strain_max": "0.0123", "planarity_max": "0.0045", "mesh_error": "0.021",
+        "buckling_mesh_error": "0.17", "crosscheck": "pass",
+    }  # fmt: skip
+    assert row == from_table | last | made | others
+    numbers = [text for text in row.values() if text.replace(".", "").isdigit()]
+    assert len(set(numbers)) >= len(numbers) - 1  # a panel count, too, is 3 or so
+
+
 def test_a_converged_design(tmp_path):
     folder = tmp_path / "results/a"
     write_results(folder)

@@ -7,7 +7,16 @@ from figure_cases import make_state
 from foldshell.figures.camera import fit_camera, look_at
 from foldshell.pattern.grid import build_grid
 from foldshell.results.creases import cut_dashes, find_creases
-from foldshell.results.isolines import find_isolines, find_region_border, panel_node_values
+from foldshell.results.design_view import make_design_view
+from foldshell.results.fields import cell_area
+from foldshell.results.isolines import (
+    ISOLINES,
+    find_isolines,
+    find_region_border,
+    panel_node_values,
+    utilization_isolines,
+)
+from foldshell.settings.make import make_settings
 
 
 @pytest.mark.parametrize("aspect", [0.6, 1.9])
@@ -89,6 +98,33 @@ def test_isoline_of_a_linear_field_is_exact():
         np.linalg.norm(on_first - on_last), rel=1e-12
     )
     assert len(find_isolines(corners, corners[..., 0], 1.5)) == 0
+
+
+@pytest.mark.parametrize(("largest", "highest"), [(1.6, 1.0), (0.4, 0.4)])
+def test_isolines_lie_on_the_level_that_they_are_labelled_with(tmp_path, largest, highest):
+    """The field, read where a line cuts the sides of its triangles, is the level in the legend.
+
+    Levels are fifths of the limit, or of a round number above a sheet that stays below half of it.
+    """
+    state = make_state(tmp_path)
+    middle = state.cells.nodes[state.triangles].mean(axis=1)
+    along = middle @ [1.0, 0.4, 0.2]
+    cells = state.final.utilization_cell
+    cells[...] = (largest * (along - along.min()) / np.ptp(along)).reshape(cells.shape)
+    settings = make_settings({})
+    lines = utilization_isolines(make_design_view(state, 5.0, settings.sizing, settings.material))
+    assert [level for level, _ in lines] == pytest.approx(highest * np.arange(1, ISOLINES + 1) / 5)
+    corners = state.cells.nodes[state.triangles]
+    area = cell_area(state)
+    values = panel_node_values(state.utilization, state.triangles, state.cell_panel, area)
+    for level, segments in lines[:-1]:
+        cut = (values > level).any(axis=1) & ~(values > level).all(axis=1)
+        assert len(segments) == cut.sum() > 0
+        for end in segments.transpose(1, 0, 2):
+            away = corners[cut] + [0, 0, 50]  # no triangle's plane holds the origin
+            share = np.linalg.solve(away.transpose(0, 2, 1), (end + [0, 0, 50])[:, :, None])
+            found = (share[:, :, 0] * values[cut]).sum(axis=1)
+            assert np.allclose(found, level, rtol=1e-9)
 
 
 def test_node_values_are_area_means_within_a_panel():
