@@ -6,6 +6,7 @@ import os
 import re
 import shutil
 
+import jsonschema
 import openpyxl
 import pytest
 from study_runner import (
@@ -20,6 +21,11 @@ from study_runner import (
     run_and_kill,
     times,
 )
+
+from foldshell.records.catalogue import FILES
+from foldshell.records.plain import to_plain
+from foldshell.records.schema import make_schema
+from foldshell.records.table import read_rows
 
 
 @pytest.fixture
@@ -53,7 +59,30 @@ def test_every_design_ends_with_a_verdict_and_a_cross_check(finished):
         assert last["verdict"] in ("converged", "not_converged", "at_minimum_thickness")
         assert last["reaction_imbalance"] < 1e-6
         comparison = finished / f"results/{design}/crosscheck/comparison.json"
-        assert isinstance(json.loads(comparison.read_text())["pass"], bool)
+        compared = json.loads(comparison.read_text())
+        assert compared["pass"] is True
+        assert all(item["pass"] is True for item in compared["quantities"].values())
+        assert len(compared["quantities"]) >= 10
+
+
+def test_every_result_file_fits_its_schema(finished):
+    """No key more and none less than the record has, whichever program wrote the file."""
+    checked = set()
+    for file in FILES:
+        pattern = file.path.replace("<design>", "tiny-*").replace("NN", "[0-9][0-9]")
+        for path in (finished / "results").glob(pattern):
+            if path.suffix == ".csv":
+                data = [to_plain(row) for row in read_rows(path, file.kind)]
+            else:
+                data = json.loads(path.read_text())
+            schema = make_schema(file)
+            jsonschema.Draft202012Validator.check_schema(schema)
+            jsonschema.validate(data, schema)
+            checked.add(file.name)
+    assert checked >= {
+        "quality", "analysis", "written", "final", "history", "classes", "mesh_convergence",
+        "primary", "comparison", "summary",
+    }  # fmt: skip
 
 
 def test_each_iteration_reads_the_workbook_that_the_one_before_wrote(finished):

@@ -15,45 +15,41 @@ from foldshell.claims.finding import (
     judge_difference,
 )
 from foldshell.records.design_row import DesignRow
-from foldshell.records.entry import entries
+from foldshell.records.entry import Entry, entries
 from foldshell.records.measures import Geometry, Measures
 from foldshell.records.quality import QualityMeasures, QualityRecord
 from foldshell.settings.sizing import Sizing
 
-
-@dataclass(frozen=True)
-class Quantity:
-    """What error a quantity inherits; unit and factor in tables where they are not those of its
-    record."""
-
-    error: str
-    shown: str = ""
-    factor: float = 1.0
-
-
 QUANTITIES = {
-    "volume_per_area": Quantity("volume", "mm", 1e3),
-    "volume": Quantity("volume"),
-    "displacement": Quantity("displacement", "mm", 1e3),
-    "displacement_edge": Quantity("displacement", "mm", 1e3),
-    "displacement_inner": Quantity("displacement", "mm", 1e3),
-    "utilization_mean": Quantity("utilization"),
-    "utilization_variation": Quantity("utilization"),
-    "utilization_panel_mean_max": Quantity("utilization"),
-    "buckling_factor": Quantity("buckling"),
-    "strength_factor": Quantity("utilization"),
-    "depth": Quantity("geometry"),
-    "panel_area": Quantity("geometry"),
-    "edge_strain_rms": Quantity("geometry", "%", 100),
-    "angle_defect_max_rad": Quantity("geometry"),
-    "flat_foldability_max_rad": Quantity("geometry"),
+    "volume_per_area": "volume",
+    "volume": "volume",
+    "displacement": "displacement",
+    "displacement_edge": "displacement",
+    "displacement_inner": "displacement",
+    "utilization_mean": "utilization",
+    "utilization_variation": "utilization",
+    "utilization_panel_mean_max": "utilization",
+    "buckling_factor": "buckling",
+    "strength_factor": "utilization",
+    "depth": "geometry",
+    "panel_area": "geometry",
+    "edge_strain_rms": "geometry",
+    "angle_defect_max_rad": "geometry",
+    "flat_foldability_max_rad": "geometry",
 }
+"""What error a quantity inherits."""
+
+
+def describe_quantity(quantity: str) -> Entry | None:
+    """Return what a record says of a quantity, None for what none knows, such as counts."""
+    known = {**entries(QualityMeasures), **entries(Measures)}
+    return known[quantity] if quantity in QUANTITIES else None
 
 
 def find_unit(quantity: str) -> str:
     """Return the unit that a quantity has in files, - for what no record knows."""
-    known = {**entries(QualityMeasures), **entries(Measures)}
-    return known[quantity].unit if quantity in QUANTITIES else "-"
+    about = describe_quantity(quantity)
+    return about.unit if about else "-"
 
 
 @dataclass(frozen=True)
@@ -99,7 +95,7 @@ def estimate_uncertainty(
     proportion, and the change of volume `volume_step` that ends the loop, or the last one where
     that is larger; both on the share of panels that do not stand at a bound.
     """
-    value, kind = design_result.measure(quantity), QUANTITIES[quantity].error
+    value, kind = design_result.measure(quantity), QUANTITIES[quantity]
     if value is None:
         return None
     if kind == "geometry":

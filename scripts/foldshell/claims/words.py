@@ -2,7 +2,7 @@
 
 from collections.abc import Iterable, Mapping, Sequence
 
-from foldshell.claims.design_result import QUANTITIES
+from foldshell.claims.design_result import describe_quantity
 from foldshell.records.claims import ClaimNumbers, ClaimRecord, Correlation, Finding, PartRecord
 from foldshell.records.measures import FlatSheet
 
@@ -93,8 +93,8 @@ def _has_limit(finding: Finding) -> bool:
 
 
 def _unit(finding: Finding) -> tuple[str, float]:
-    known = QUANTITIES.get(finding.quantity.split(", ")[0])
-    return (known.shown, known.factor) if known and known.shown else (finding.unit, 1.0)
+    about = describe_quantity(finding.quantity.split(", ")[0])
+    return (about.shown, about.factor) if about else (finding.unit, 1.0)
 
 
 def _write_cell(finding: Finding, order: Sequence[str]) -> str:

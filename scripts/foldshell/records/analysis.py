@@ -125,7 +125,7 @@ class ShellState:
     )  # fmt: skip
     displacement_vertical_max_m: float | None = entry(
         "largest downward displacement over the deflection combinations",
-        "m", "vertical displacement, down", left_out=True,
+        "m", "vertical displacement, down", shown="mm", left_out=True,
     )  # fmt: skip
     displacement_combination: str | None = entry(
         "combination of the largest downward displacement", left_out=True

@@ -33,7 +33,7 @@ class DesignRow:
     fold_mode: str = _column("fold_mode")
     edge_beam_depth_m: float | None = _column("edge_beam_depth_m", form="general", default=None)
     edge_beam_thickness_m: float | None = _column(
-        "edge_beam_thickness_m", form="general", default=None
+        "edge_beam_thickness_m", form="general", shown="mm", default=None
     )
 
     @property

@@ -15,13 +15,18 @@ COUNT = "count"
 """Unit of whole numbers that count something."""
 
 
+FACTORS = {("m", "mm"): 1e3, ("m3/m2", "mm"): 1e3, ("-", "%"): 100.0}
+"""From the unit of a file to the one that a person reads, where they differ."""
+
+
 @dataclass(frozen=True)
 class Entry:
     """A field of a record.
 
     `attribute` is its name in Python, `key` the one in the file, `type` the annotation. `unit` is
     that of the file: empty for texts and answers, `COUNT` for whole numbers, "-" for ratios.
-    `words` are what a person reads for the key, without unit; `form` names the number format of
+    `words` are what a person reads for the key, without unit, and `shown` the unit of the number on
+    pages that compare designs; `form` names the number format of
     workbooks where the type alone does not say it. A `left_out` field that is None has no key, or
     in a table no column.
     """
@@ -35,11 +40,25 @@ class Entry:
     form: str
     left_out: bool
     required: bool
+    shown: str
 
     def label(self, unit: bool = True) -> str:
         """Return the words, with the unit in brackets where there is one."""
-        shown = SIGNS.get(self.unit, self.unit)
-        return f"{self.words} [{shown}]" if unit and shown not in ("", COUNT) else self.words
+        return self._write(self.unit) if unit else self.words
+
+    @property
+    def shown_label(self) -> str:
+        """The words, with the unit that is shown in brackets."""
+        return self._write(self.shown)
+
+    @property
+    def factor(self) -> float:
+        """The number in the unit that is shown over that of the file."""
+        return 1.0 if self.shown == self.unit else FACTORS[self.unit, self.shown]
+
+    def _write(self, unit: str) -> str:
+        sign = SIGNS.get(unit, unit)
+        return self.words if sign in ("", COUNT) else f"{self.words} [{sign}]"
 
 
 def entry(
@@ -49,13 +68,14 @@ def entry(
     *,
     key: str = "",
     form: str = "",
+    shown: str = "",
     left_out: bool = False,
     default: Any = dataclasses.MISSING,
 ) -> Any:
     """Return a dataclass field that carries what `Entry` says of it; `left_out` ones default to
     None."""
     about = {"unit": unit, "meaning": meaning, "words": words, "key": key, "form": form,
-             "left_out": left_out}  # fmt: skip
+             "shown": shown, "left_out": left_out}  # fmt: skip
     if left_out and default is dataclasses.MISSING:
         default = None
     return dataclasses.field(default=default, metadata=about)
@@ -102,7 +122,7 @@ def _describe(field: dataclasses.Field, hint: Any) -> Entry:
     words = about["words"] or name_key(key, unit)
     required = field.default is dataclasses.MISSING
     return Entry(field.name, key, hint, unit, about["meaning"], words, about["form"],
-                 about["left_out"], required)  # fmt: skip
+                 about["left_out"], required, about["shown"] or unit)  # fmt: skip
 
 
 def strip_null(hint: Any) -> Any:

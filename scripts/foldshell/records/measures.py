@@ -37,9 +37,9 @@ class Measures(Geometry):
     reason: str = same(AnalysisRecord, "reason")
     iterations: int = entry("analyses of the loop", COUNT)
     volume: float = same(ShellState, "volume_m3", key="volume", words="volume")
-    volume_per_area: float = entry("volume over the area of the sheet", "m")
+    volume_per_area: float = entry("volume over the area of the sheet", "m", shown="mm")
     volume_change: float | None = entry("relative change of volume of the last iteration", "-")
-    displacement: float | None = entry("largest downward displacement", "m")
+    displacement: float | None = entry("largest downward displacement", "m", shown="mm")
     buckling_factor: float | None = entry("least factor of the strength combinations", "-")
     utilization_mean: float | None = _state("utilization_mean")
     utilization_max: float | None = _state("utilization_max")
@@ -52,8 +52,8 @@ class Measures(Geometry):
     )
     above_one: int | None = entry("panels above 1 by the measure of the loop", COUNT)
     above_one_at_free_edge: int | None = entry("those of them along a free edge", COUNT)
-    displacement_edge: float | None = entry("the same on panels along free edges", "m")
-    displacement_inner: float | None = entry("the same on all other panels", "m")
+    displacement_edge: float | None = entry("the same on panels along free edges", "m", shown="mm")
+    displacement_inner: float | None = entry("the same on all other panels", "m", shown="mm")
     strength_factor: float | None = entry(
         "load factor at which the mean of a panel reaches the strength", "-", left_out=True
     )

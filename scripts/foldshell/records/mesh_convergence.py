@@ -58,10 +58,13 @@ class MeshConvergenceRecord:
 
     mesh_error: float | None = entry(
         "largest relative error on the mesh in use, buckling factors left out",
-        "-", form="percent",
+        "-", form="percent", shown="%",
     )  # fmt: skip
     buckling_mesh_error: float | None = entry(
-        "largest relative error of a buckling factor on the mesh in use", "-", form="percent"
+        "largest relative error of a buckling factor on the mesh in use",
+        "-",
+        form="percent",
+        shown="%",
     )
     subdivisions: int = entry("subdivisions of the mesh in use", COUNT)
     errors: dict[str, dict[str, float]] = entry(

@@ -19,16 +19,21 @@ class QualityMeasures:
         "-", "largest distance to the target / span",
     )  # fmt: skip
     edge_strain_max: float = entry(
-        "largest strain of an edge, folded against flat", "-", "largest strain of an edge"
+        "largest strain of an edge, folded against flat",
+        "-",
+        "largest strain of an edge",
+        shown="%",
     )
-    edge_strain_rms: float = entry("rms strain of all edges", "-", "rms strain of the edges")
+    edge_strain_rms: float = entry(
+        "rms strain of all edges", "-", "rms strain of the edges", shown="%"
+    )
     angle_defect_max_rad: float = entry(
         "largest difference of a vertex's angle sum from a full turn",
         "rad", "largest defect of a vertex's angle sum",
     )  # fmt: skip
     planarity_max: float = entry(
         "largest distance between a panel's diagonals, over their mean length",
-        "-", "planarity, largest",
+        "-", "planarity, largest", shown="%",
     )  # fmt: skip
     planarity_mean: float = entry(
         "mean over panels of the distance between diagonals, over their mean length",

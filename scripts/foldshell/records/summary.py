@@ -43,7 +43,7 @@ class SummaryRow:
     iterations: int | None = entry("analyses of the loop", COUNT, default=None)
     volume_m3: float | None = _state("volume_m3")
     volume_per_area_m: float | None = entry(
-        "volume over the area of the sheet", "m3/m2", "volume / area", default=None
+        "volume over the area of the sheet", "m3/m2", "volume / area", shown="mm", default=None
     )
     utilization_max: float | None = _state("utilization_max")
     utilization_p99: float | None = _state("utilization_p99")

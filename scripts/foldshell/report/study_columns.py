@@ -10,8 +10,6 @@ from foldshell.report.checks import Check
 from foldshell.report.markup import Cell
 from foldshell.workbook.styles import GOOD_VERDICTS
 
-IN_MM = ("displacement_vertical_max_m", "volume_per_area_m", "edge_beam_thickness_m")
-PERCENT = ("mesh_error", "buckling_mesh_error")
 JUDGED = ("state", "crosscheck", "engineering")
 HIDDEN = ("design", "tags", "settings_hash")
 DEFAULT_LINES = ("volume_per_area_m", "utilization_mean", "utilization_p99",
@@ -50,12 +48,7 @@ def choose_columns(rows: Sequence[SummaryRow]) -> list[Column]:
 
 def _make_column(about: Entry) -> Column:
     key, numeric = about.key, strip_null(about.type) in (int, float)
-    words, factor = about.label(), 1.0
-    if key in IN_MM:
-        words, factor = f"{about.words} [mm]", 1e3
-    elif key in PERCENT:
-        words, factor = f"{about.words} [%]", 100.0
-    return Column(key, words, numeric, factor, key in DEFAULT_LINES)
+    return Column(key, about.shown_label, numeric, about.factor, key in DEFAULT_LINES)
 
 
 def make_row(

@@ -13,14 +13,6 @@ from foldshell.workbook.styles import GOOD_VERDICTS
 
 JUDGED = ("state", "crosscheck")
 """Columns whose words are good or bad."""
-SCALED = {
-    "volume_per_area_m": ("mm", 1e3),
-    "displacement_vertical_max_m": ("mm", 1e3),
-    "mesh_error": ("%", 100.0),
-    "edge_strain_max": ("%", 100.0),
-    "planarity_max": ("%", 100.0),
-}
-"""Columns that are shown in another unit than that of the file, and the factor to it."""
 COLUMNS = (
     "state",
     "surface",
@@ -63,14 +55,9 @@ def write_summary_page(path: str | Path) -> str:
         title="Summary",
         counts=", ".join(f"{n} {state.replace('_', ' ')}" for state, n in counts.items()),
         checked=sum(row.crosscheck == "pass" for row in rows),
-        columns=[(_head(about), _is_number(about)) for about in columns],
+        columns=[(about.shown_label, _is_number(about)) for about in columns],
         rows=[(row.design, [_make_cell(row, about) for about in columns]) for row in rows],
     )
-
-
-def _head(about: Entry) -> str:
-    unit, _ = SCALED.get(about.key, ("", 1.0))
-    return f"{about.words} [{unit}]" if unit else about.label()
 
 
 def _is_number(about: Entry) -> bool:
@@ -81,8 +68,7 @@ def _make_cell(row: SummaryRow, about: Entry) -> Cell:
     """Return a number in the unit of the page, or a text with its class."""
     value = getattr(row, about.attribute)
     if value is not None and _is_number(about):
-        _, factor = SCALED.get(about.key, ("", 1))
-        return Cell(factor * value)
+        return Cell(about.factor * value)
     text = str(value or "")
     kind = _judge(text) if about.key in JUDGED else "number" if _is_number(about) else ""
     return Cell(text.replace("_", " ") or "–", kind)

@@ -2,8 +2,15 @@
 
 from dataclasses import replace
 
+import pytest
+
 from claims_case import make_design_result
-from foldshell.claims.design_result import Comparer
+from foldshell.claims.design_result import (
+    QUANTITIES,
+    Comparer,
+    describe_quantity,
+    find_unit,
+)
 from foldshell.claims.kinematics import judge_foldability
 from foldshell.claims.limits import judge_folds
 from foldshell.claims.statement import Claim, describe_claim
@@ -44,6 +51,48 @@ def test_a_row_holds_the_values_in_the_order_of_its_name():
     assert "zigzag\\|strip" in row
     assert "0.5 / 0.3 ± 0.029: holds" in row and "50 / 80 ± 4.8: holds" in row
     assert "volume per area [mm]" in table
+
+
+def test_units_of_quantities_are_those_of_their_records():
+    """Metres show as mm, strains as %: the factors by what the units mean."""
+    factors = {("m", "mm"): 1000, ("-", "%"): 100}
+    units = {
+        "volume": ("m3", "m3"), "volume_per_area": ("m", "mm"), "displacement": ("m", "mm"),
+        "displacement_edge": ("m", "mm"), "displacement_inner": ("m", "mm"), "depth": ("m", "m"),
+        "panel_area": ("m2", "m2"), "edge_strain_rms": ("-", "%"),
+        "angle_defect_max_rad": ("rad", "rad"), "flat_foldability_max_rad": ("rad", "rad"),
+    }  # fmt: skip
+    for quantity in QUANTITIES:
+        about = describe_quantity(quantity)
+        unit, shown = units.get(quantity, ("-", "-"))
+        assert (about.unit, find_unit(quantity), about.shown) == (unit, unit, shown), quantity
+        assert about.factor == factors.get((unit, shown), 1), quantity
+    assert find_unit("panels") == "-" and describe_quantity("panels") is None
+
+
+@pytest.mark.parametrize(
+    ("quantity", "values", "cell"),
+    [
+        ("displacement", (0.05, 0.04), "displacement [mm] | 50 / 40 ± 3.2"),
+        ("volume_per_area", (0.08, 0.05), "volume per area [mm] | 80 / 50 ± 4.8"),
+        ("volume", (80.0, 50.0), "volume [m3] | 80 / 50 ± 4.8"),
+        ("edge_strain_rms", (0.012, 0.01), "edge strain rms [%] | 1.2 / 1"),
+        ("depth", (1.9, 1.5), "depth [m] | 1.9 / 1.5"),
+        ("panel_area", (2.0, 1.5), "panel area [m2] | 2 / 1.5"),
+        ("utilization_mean", (0.4, 0.3), "utilization mean [-] | 0.4 / 0.3 ± 0.025"),
+    ],
+)
+def test_a_cell_shows_the_number_in_the_unit_of_its_column(quantity, values, cell):
+    """5 % uncertainty of each, of a volume 5.1 %; what folding alone decides has none."""
+    one, two = (make_design_result({quantity: value}, strip=16 + k)
+                for k, value in enumerate(values))  # fmt: skip
+    finding = COMPARER.compare("part", one, two, quantity)
+    assert finding.values == values and finding.unit == find_unit(quantity)
+    (table,) = write_findings([finding])
+    head, _, row = table.splitlines()[:3]
+    column, shown = cell.split(" | ")
+    assert head.split(" | ")[1] == f"part: {column} |"
+    assert row.split(" | ")[1] == f"{shown}: holds |"
 
 
 def test_rows_share_a_table_only_where_columns_mean_the_same():

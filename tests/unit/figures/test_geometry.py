@@ -121,8 +121,8 @@ def test_isolines_lie_on_the_level_that_they_are_labelled_with(tmp_path, largest
         cut = (values > level).any(axis=1) & ~(values > level).all(axis=1)
         assert len(segments) == cut.sum() > 0
         for end in segments.transpose(1, 0, 2):
-            away = corners[cut] + [0, 0, 50]  # no triangle's plane holds the origin
-            share = np.linalg.solve(away.transpose(0, 2, 1), (end + [0, 0, 50])[:, :, None])
+            up = np.array([0, 0, 50])  # so that no triangle's plane holds the origin
+            share = np.linalg.solve((corners[cut] + up).transpose(0, 2, 1), (end + up)[:, :, None])
             found = (share[:, :, 0] * values[cut]).sum(axis=1)
             assert np.allclose(found, level, rtol=1e-9)
 

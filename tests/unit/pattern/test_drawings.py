@@ -19,6 +19,11 @@ SCRIPTS = Path(__file__).resolve().parents[3] / "scripts"
 PATTERN = Miura(1.3, 0.7, math.radians(60), 5, 6)
 
 
+RED, GREEN, BLUE = (255, 0, 0), (0, 255, 0), (0, 0, 255)
+DXF_COLOURS = {"fold": (RED, BLUE), "paper": (GREEN, RED), "laser": (BLUE, GREEN)}
+"""Mountain and valley; AutoCAD's index knows one green."""
+
+
 @pytest.fixture
 def drawing():
     return draw_pattern(flat_vertices(PATTERN), PATTERN.grid)
@@ -88,8 +93,10 @@ def test_each_preset_has_its_colours(tmp_path, drawing, preset, mountain, valley
         assert strokes[colour].attrib["d"].count("L") == (kinds == kind).sum()
     assert len(strokes[border].attrib["points"].split()) == (kinds == "B").sum()
     write_dxf(tmp_path / "a.dxf", drawing, preset)
-    layers = {layer.dxf.name for layer in ezdxf.readfile(tmp_path / "a.dxf").layers}
+    layers = {layer.dxf.name: layer.rgb or ezdxf.colors.aci2rgb(layer.color)
+              for layer in ezdxf.readfile(tmp_path / "a.dxf").layers}  # fmt: skip
     assert ("CUT" in layers) == (preset == "laser") == ("BORDER" not in layers)
+    assert (layers["MOUNTAIN"], layers["VALLEY"]) == tuple(DXF_COLOURS[preset])
 
 
 @pytest.mark.parametrize("scale", [1.0, 0.02])

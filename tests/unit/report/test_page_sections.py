@@ -1,0 +1,57 @@
+"""Tables of the page of a design: shares of a file become per cent, once."""
+
+import pytest
+
+from foldshell.records.entry import FACTORS, entries
+from foldshell.records.summary import SummaryRow
+from foldshell.report.sections import make_crosscheck, make_mesh_error
+from foldshell.report.study_columns import choose_columns, make_row
+from record_cases import make_comparison, make_convergence, make_quantity, make_summary
+
+
+def read(table):
+    """Return the rows of a table as dicts by header."""
+    return [
+        dict(zip(table.header, (cell.value for cell in row), strict=True)) for row in table.rows
+    ]
+
+
+def test_errors_of_the_mesh_are_per_cent():
+    record = make_convergence({"S2": {"work_knm": 0.034}, "D1": {"displacement_max_m": -0.002}})
+    work, displacement = read(make_mesh_error(record).table)
+    assert work["S2 [%]"] == pytest.approx(3.4) and work["D1 [%]"] is None
+    assert displacement["D1 [%]"] == pytest.approx(-0.2)
+
+
+def test_difference_and_tolerance_of_both_codes_are_per_cent():
+    quantity = make_quantity(relative_difference=0.072, tolerance=0.05)
+    (row,) = read(make_crosscheck(make_comparison(False, {"S2 work_knm": quantity})).table)
+    assert row["difference [%]"] == pytest.approx(7.2)
+    assert row["tolerance [%]"] == pytest.approx(5.0)
+    assert (row["primary"], row["independent"], row["within"]) == (0.1, 0.11, "no")
+
+
+def test_columns_of_the_study_are_in_the_unit_of_their_header():
+    row = make_summary(
+        volume_per_area_m=0.08, displacement_vertical_max_m=0.05, mesh_error=0.021,
+        buckling_mesh_error=0.17, edge_strain_max=0.012, planarity_max=0.004,
+        edge_beam_thickness_m=0.3, edge_beam_depth_m=0.5, volume_m3=88.0,
+    )  # fmt: skip
+    columns = choose_columns([row])
+    cells = make_row(row, columns, None)
+    found = {column.words: cells[column.key].value for column in columns if column.numeric}
+    expected = {
+        "volume / area [mm]": 80, "vertical displacement, down [mm]": 50, "mesh error [%]": 2.1,
+        "buckling mesh error [%]": 17, "largest strain of an edge [%]": 1.2,
+        "planarity, largest [%]": 0.4, "edge beam thickness [mm]": 300,
+        "edge beam depth [m]": 0.5, "volume [m³]": 88,
+    }  # fmt: skip
+    for words, value in expected.items():
+        assert found[words] == pytest.approx(value), words
+
+
+def test_factors_say_what_the_units_say():
+    per_metre = {"mm": 1000.0}
+    assert {pair: per_metre.get(pair[1], 100.0) for pair in FACTORS} == FACTORS
+    shown = {(about.unit, about.shown) for about in entries(SummaryRow).values()}
+    assert {pair for pair in shown if pair[0] != pair[1]} == set(FACTORS)
