@@ -37,7 +37,7 @@ def make_more_data(
 ) -> ViewerData:
     """Return what the view shows of combinations, and the thickness (I, P) m of all iterations of
     the sizing loop from iterations.npz."""
-    found = make_combination_data(view, grid, find_reactions(view.state, settings), settings)
+    found = make_combination_data(view, grid, find_reactions(view, settings), settings)
     thickness = read_typed_arrays(iterations, IterationsArrays).thickness
     arrays = found.arrays | {"iteration_thickness": thickness}
     return ViewerData(arrays, found.facts | {"iterations": list(range(len(thickness)))})
@@ -55,8 +55,8 @@ def make_combination_data(
     state = view.state
     if reactions is None:
         return ViewerData({}, {"combinations": [], "quantities": []})
-    found = evaluate_combinations(state, settings.material)
-    moved = np.stack([grid.at_nodes(state.displacement_at_nodes(n)) for n in state.combinations])
+    found = evaluate_combinations(state, settings.material, view.operators)
+    moved = np.ascontiguousarray(state.all_displacements()[:, : len(grid.nodes)])
     used = np.stack([grid.at_triangles(values) for values in found.utilization])
     sections = average_panels(state, found)
     nodes, forces = gather_reactions(state, reactions)

@@ -28,6 +28,6 @@ def read_sheet(
     final = read_analysis(paths["final"])
     convergence = read_record(paths["mesh_convergence"], MeshConvergenceRecord)
     checks = list_checks(final, read_engineering(Path(paths["final"]).parents[1]))
-    comparison, reactions = read_comparison(paths["comparison"]), find_reactions(state, settings)
-    files = SheetFiles(design, final, comparison, convergence, checks, reactions)
-    return files, view_design(state, settings, design.span, design.pattern)
+    view = view_design(state, settings, design.span, design.pattern)
+    comparison, reactions = read_comparison(paths["comparison"]), find_reactions(view, settings)
+    return SheetFiles(design, final, comparison, convergence, checks, reactions), view

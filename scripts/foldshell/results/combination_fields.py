@@ -10,7 +10,7 @@ from foldshell.results.state import DesignState
 from foldshell.settings.material import Material
 from foldshell.shell.element import ElementGeometry
 from foldshell.shell.reference import lagrange_basis, lattice_points, orthonormal_basis
-from foldshell.shell.stiffness import build_operators
+from foldshell.shell.stiffness import ShellOperators, build_operators
 from foldshell.shell.stress import cell_points, stress_resultants
 
 
@@ -30,13 +30,16 @@ class CombinationFields:
     utilization: np.ndarray
 
 
-def evaluate_combinations(state: DesignState, material: Material) -> CombinationFields:
+def evaluate_combinations(
+    state: DesignState, material: Material, operators: ShellOperators | None = None
+) -> CombinationFields:
     """N = t E D eps, M = t^3/12 E D kappa, V = div M at the centroid of every cell.
 
-    A moment is positive where the lower side (against the normal) is in tension.
+    A moment is positive where the lower side (against the normal) is in tension. `operators` of
+    the state's mesh are built where they are not given.
     """
     mesh = state.mesh
-    operators = build_operators(mesh, material.poissons_ratio)
+    operators = operators or build_operators(mesh, material.poissons_ratio)
     geometry, thickness = operators.geometry, state.panel_thickness[mesh.panel]
     moved = state.final.displacement
     found = stress_resultants(operators, moved, thickness, material.youngs_modulus)

@@ -17,6 +17,7 @@ from foldshell.results.state import DesignState
 from foldshell.settings.material import Material
 from foldshell.settings.sizing import Sizing
 from foldshell.settings.stage import StageSettings
+from foldshell.shell.stiffness import ShellOperators, build_operators
 
 
 @dataclass(frozen=True)
@@ -33,6 +34,11 @@ class DesignView:
     def size(self) -> float:
         """Length of the diagonal of the sheet's box, m."""
         return float(np.linalg.norm(np.ptp(self.state.cells.nodes, axis=0)))
+
+    @cached_property
+    def operators(self) -> ShellOperators:
+        """Strain operators of the mesh, which several results share."""
+        return build_operators(self.state.mesh, self.material.poissons_ratio)
 
     @cached_property
     def principal_stress_lines(self) -> tuple[str, list[PrincipalStressLine]]:

@@ -5,9 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from foldshell.loads.cases import combination_matrix, make_load_cases, surface_loads
+from foldshell.results.design_view import DesignView
 from foldshell.results.state import DesignState
 from foldshell.settings.stage import StageSettings
-from foldshell.shell.analysis import AnalysisResult, ShellModel, build_model
+from foldshell.shell.analysis import AnalysisResult, ShellModel
 from foldshell.shell.nodal_loads import nodal_forces
 from foldshell.shell.results import support_reactions
 
@@ -43,15 +44,16 @@ class Reactions:
     resultant: np.ndarray
 
 
-def find_reactions(state: DesignState, settings: StageSettings) -> Reactions | None:
+def find_reactions(view: DesignView, settings: StageSettings) -> Reactions | None:
     """R = int B^T sigma dA + K_g u - f at the supports, from the displacements of the final state;
     None without finite ones.
 
     `settings` are those of stage `size`.
     """
+    state, material = view.state, settings.material
     if not state.usable:
         return None
-    material, model = settings.material, _build(state, settings.material.poissons_ratio)
+    model = _model_of(view)
     thickness = model.to_elements(state.final.thickness)
     normal = model.operators.geometry.frame[:, 2]
     cases = make_load_cases(settings.loads, material.unit_weight)
@@ -75,9 +77,11 @@ def find_reactions(state: DesignState, settings: StageSettings) -> Reactions | N
     )
 
 
-def _build(state: DesignState, poissons_ratio: float) -> ShellModel:
-    held, fixed = state.shell["supported_nodes"], state.shell.get("fixed_thickness")
-    return build_model(state.mesh, held, poissons_ratio, fixed_thickness=fixed)
+def _model_of(view: DesignView) -> ShellModel:
+    """Return the model of a view's mesh, without the pattern of its equations: none are solved."""
+    state = view.state
+    held, fixed = state.shell["supported_nodes"], state.edge_beam_thickness
+    return ShellModel(state.mesh, view.operators, None, held, fixed)
 
 
 def _sum_edges(

@@ -89,6 +89,13 @@ class DesignState:
         column = self.combinations.index(combination)
         return self._at_cells(self.final.displacement[:, column])
 
+    def all_displacements(self) -> np.ndarray:
+        """Return those of all combinations at once, (c, N, 3) m."""
+        count = len(self.combinations)
+        moved = self.final.displacement[: 3 * len(self.mesh.nodes), :count]
+        found = interpolate_to_cells(self.mesh, self.cells, moved.reshape(-1, 3 * count))
+        return np.moveaxis(found.reshape(-1, 3, count), 2, 0)
+
     def buckling_mode(self, combination: str) -> np.ndarray:
         """Return a mode (N, 3), scaled to a largest translation of 1. Without unit."""
         column = self.combinations.index(combination)

@@ -22,7 +22,7 @@ from unit.results.test_reactions import analysed
 def test_loads_of_panels_add_up_to_the_resultants(tmp_path):
     """Every case, every direction: to 1e-12 of the largest."""
     state, given, _ = analysed(tmp_path)
-    found = find_reactions(state, given)
+    found = find_reactions(view_design(state, given, 5.0, "miura"), given)
     panels = sum_cases(state, given)
     assert panels.shape == (len(found.cases), PANELS, 3)
     assert pytest.approx(found.resultant, abs=1e-9) == panels.sum(axis=1).T
@@ -31,7 +31,7 @@ def test_loads_of_panels_add_up_to_the_resultants(tmp_path):
 def test_reactions_at_vertices_keep_their_sum(tmp_path):
     """Nodes between vertices count with the nearer one."""
     state, given, _ = analysed(tmp_path)
-    found = find_reactions(state, given)
+    found = find_reactions(view_design(state, given, 5.0, "miura"), given)
     vertices, forces = gather_reactions(state, found)
     assert len(vertices) == 10 and forces.shape == (4, 10, 3)
     assert pytest.approx(found.force.sum(axis=0), abs=1e-9) == forces.sum(axis=1).T
@@ -69,3 +69,12 @@ def test_nothing_without_displacements(tmp_path):
     view = view_design(state, given, 5.0, "miura")
     found = make_combination_data(view, make_grid(view), None, given)
     assert found.arrays == {} and found.facts["combinations"] == []
+
+
+def test_displacements_of_all_combinations_are_those_of_each(tmp_path):
+    """All at once or one by one: the same numbers."""
+    state, _, _ = analysed(tmp_path)
+    found = state.all_displacements()
+    for number, name in enumerate(state.combinations):
+        one = state.displacement_at_nodes(name)
+        assert np.abs(found[number] - one).max() <= 1e-15 * np.abs(one).max() + 1e-300

@@ -7,6 +7,7 @@ import pytest
 
 from figure_cases import write_case
 from foldshell.loads.cases import make_load_cases
+from foldshell.results.design_view import view_design
 from foldshell.results.reactions import find_reactions
 from foldshell.results.state import read_state
 from foldshell.settings.analysed import ANALYSED
@@ -41,7 +42,7 @@ def analysed(folder):
 def test_reactions_carry_the_loads(tmp_path):
     """Sum of reactions against hand sums of weight, dead load, live load and wind: to 1e-9."""
     state, given, model = analysed(tmp_path)
-    found = find_reactions(state, given)
+    found = find_reactions(view_design(state, given, 5.0, "miura"), given)
     area, normal = model.operators.geometry.area, model.operators.geometry.frame[:, 2]
     thickness = model.to_elements(state.final.thickness)
     own = -25.0 * (area * thickness).sum()
@@ -57,7 +58,7 @@ def test_reactions_carry_the_loads(tmp_path):
 def test_edges_share_out_all_reactions(tmp_path):
     """Both strip edges of the case, at their places, and nothing left over."""
     state, given, _ = analysed(tmp_path)
-    found = find_reactions(state, given)
+    found = find_reactions(view_design(state, given, 5.0, "miura"), given)
     assert [edge.name for edge in found.edges] == ["first strip edge", "last strip edge"]
     total = sum(edge.force for edge in found.edges)
     assert total == pytest.approx(found.force.sum(axis=0), abs=1e-12 * np.abs(total).max())
@@ -73,4 +74,4 @@ def test_no_displacements_no_reactions(tmp_path):
     state, given, _ = analysed(tmp_path)
     lost = np.full_like(state.final.displacement, np.nan)
     broken = replace(state, final=replace(state.final, displacement=lost))
-    assert find_reactions(broken, given) is None
+    assert find_reactions(view_design(broken, given, 5.0, "miura"), given) is None
