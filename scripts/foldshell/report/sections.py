@@ -8,10 +8,10 @@ from typing import Any
 from foldshell.records.analysis import AnalysisRecord, Criteria, read_analysis
 from foldshell.records.classes import ClassesRecord
 from foldshell.records.comparison import ComparisonRecord, read_comparison
-from foldshell.records.entry import SIGNS, entries, name_key
+from foldshell.records.entry import Entry, entries
 from foldshell.records.files import read_record
 from foldshell.records.history import HistoryRow
-from foldshell.records.mesh_convergence import CombinationStudy, MeshConvergenceRecord
+from foldshell.records.mesh_convergence import MeshConvergenceRecord
 from foldshell.records.quality import QualityRecord
 from foldshell.records.table import read_rows
 from foldshell.report.checks import (
@@ -22,7 +22,9 @@ from foldshell.report.checks import (
     read_engineering,
 )
 from foldshell.report.history_chart import Series, draw_history
-from foldshell.report.markup import Cell, Table, format_number, make_table
+from foldshell.report.markup import format_number, make_table
+from foldshell.report.quality_sections import make_crosscheck, make_mesh_error
+from foldshell.report.section import Box, Section, judge_met
 from foldshell.results.design_view import count_analyses
 from foldshell.settings.design import Design
 from foldshell.workbook.styles import GOOD_VERDICTS
@@ -72,28 +74,6 @@ class DesignFiles:
     comparison: ComparisonRecord
     history: Sequence[HistoryRow]
     checks: Sequence[Check] = ()
-
-
-@dataclass(frozen=True)
-class Box:
-    """A framed verdict: good or bad, the word that stands out, the rest, a reason below it."""
-
-    kind: str
-    words: str
-    head: str = ""
-    reason: str | None = None
-
-
-@dataclass(frozen=True)
-class Section:
-    """A titled part of a page; what it lacks is left out."""
-
-    title: str
-    box: Box | None = None
-    words: str = ""
-    table: Table | None = None
-    chart: str = ""
-    note: str = ""
 
 
 def read_files(design: Design, paths: Mapping[str, str | Path]) -> DesignFiles:
@@ -162,7 +142,7 @@ def make_checks(checks: Sequence[Check]) -> Section:
     if governing is None:
         return Section("Checks", words="No check has a value: the analysis gave no results.")
     rows = [
-        (check.name, check.value, check.limit, describe_share(check.ratio), _judge(check.met),
+        (check.name, check.value, check.limit, describe_share(check.ratio), judge_met(check.met),
          check.where)
         for check in checks
     ]  # fmt: skip
@@ -185,26 +165,22 @@ def describe_edits(history: Sequence[HistoryRow]) -> str:
 
 def make_criteria(criteria: Criteria) -> Section:
     """Return the criteria with value, limit and whether they are met."""
-    rows = [
-        (about.label(), item.value, item.limit, _judge(item.met))
-        for about, item in criteria.items()
-    ]
+    rows = []
+    for about, item in criteria.items():
+        words, factor = show_unit(about)
+        value = None if item.value is None else factor * item.value
+        rows.append((words, value, factor * item.limit, judge_met(item.met)))
     if not rows:
         return Section("Criteria", words="No criteria: the analysis gave no results.")
     return Section("Criteria", table=make_table(("criterion", "value", "limit", "met"), rows))
 
 
-def name_quantity(key: str, unit: str = "-") -> str:
-    """Return the words of a compared quantity, `S2 work_knm`, with its unit in brackets."""
-    *combination, name = key.split(" ")
-    about = entries(CombinationStudy).get(name)
-    words = about.words if about else name_key(name, unit)
-    shown = "" if unit == "-" else f" [{SIGNS.get(unit, unit)}]"
-    return " ".join([*combination, words]) + shown
-
-
-def _judge(met: Any) -> Cell:
-    return Cell("–") if met is None else Cell("yes", "good") if met else Cell("no", "bad")
+def show_unit(about: Entry) -> tuple[str, float]:
+    """Return the words of a field with the unit that people read, and the factor into it: files
+    hold displacements in m, pages show them in mm."""
+    if about.key.startswith("displacement") and about.unit == "m":
+        return f"{about.words} [mm]", 1e3
+    return about.label(), 1
 
 
 def make_headlines(final: AnalysisRecord) -> Section:
@@ -224,8 +200,9 @@ def make_folding(quality: QualityRecord) -> Section:
 def _list_quantities(section: Section, keys: Sequence[str], record: Any) -> Section:
     """Return the section with a table of the fields of a record that have a value."""
     known = entries(type(record))
-    values = [(known[key].label(), getattr(record, known[key].attribute)) for key in keys]
-    rows = [(words, value) for words, value in values if value is not None]
+    values = [(*show_unit(known[key]), getattr(record, known[key].attribute)) for key in keys]
+    rows = [(words, value if factor == 1 else factor * value)
+            for words, factor, value in values if value is not None]  # fmt: skip
     return replace(section, table=make_table(("quantity", "value"), rows))
 
 
@@ -238,49 +215,6 @@ def make_classes(classes: ClassesRecord) -> Section:
         words=f"{classes.verdict.replace('_', ' ')}{share}: {classes.reason}",
         table=make_table(("class", "thickness [mm]", "panels", "area [m²]"), rows),
     )
-
-
-def make_mesh_error(record: MeshConvergenceRecord) -> Section:
-    """Return how far each headline number is from that of a finer mesh."""
-    errors = record.errors
-    if not errors:
-        reason = record.study.reason or "no results"
-        return Section("Mesh error", words=f"Not measured: {reason}")
-    names = list(dict.fromkeys(name for one in errors.values() for name in one))
-    header = ["difference to the fine mesh", *(f"{name} [%]" for name in errors)]
-    rows = [
-        (name_quantity(name), *(_percent(one.get(name)) for one in errors.values()))
-        for name in names
-    ]
-    return Section("Mesh error", table=make_table(header, rows))
-
-
-def make_crosscheck(comparison: ComparisonRecord) -> Section:
-    """Return both codes side by side with their tolerance."""
-    passed = comparison.passed
-    words = "every quantity is within its tolerance" if passed else "not within tolerance"
-    note = comparison.reason
-    rows = [
-        (
-            name_quantity(name, item.unit),
-            item.primary,
-            item.independent,
-            _percent(item.relative_difference),
-            _percent(item.tolerance),
-            _judge(item.passed),
-        )
-        for name, item in comparison.quantities.items()
-    ]
-    header = ("quantity", "primary", "independent", "difference [%]", "tolerance [%]", "within")
-    return Section(
-        "Cross-check by the independent code",
-        Box("good" if passed else "bad", f"{words}: {note}" if note else words),
-        table=make_table(header, rows) if rows else None,
-    )
-
-
-def _percent(value: float | None) -> float | None:
-    return None if value is None else 100 * value
 
 
 def make_history(history: Sequence[HistoryRow], utilization_max: float) -> Section:

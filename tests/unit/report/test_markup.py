@@ -8,7 +8,7 @@ from markupsafe import Markup
 from foldshell.report.history_chart import Series, draw_history
 from foldshell.report.markdown import render_markdown
 from foldshell.report.markup import Cell, format_number, make_table, render, templates
-from foldshell.report.sections import Box, Section
+from foldshell.report.section import Box, Section
 
 EVIL = "</script><script>alert(1)</script>&\u2028\"'"
 

@@ -1,0 +1,59 @@
+"""Sections of a page on how good its numbers are: cross-check and mesh error."""
+
+from foldshell.records.comparison import ComparisonRecord
+from foldshell.records.entry import SIGNS, entries, name_key
+from foldshell.records.mesh_convergence import CombinationStudy, MeshConvergenceRecord
+from foldshell.report.markup import make_table
+from foldshell.report.section import Box, Section, judge_met
+
+
+def name_quantity(key: str, unit: str = "-") -> str:
+    """Return the words of a compared quantity, `S2 work_knm`, with its unit in brackets."""
+    *combination, name = key.split(" ")
+    about = entries(CombinationStudy).get(name)
+    words = about.words if about else name_key(name, unit)
+    shown = "" if unit == "-" else f" [{SIGNS.get(unit, unit)}]"
+    return " ".join([*combination, words]) + shown
+
+
+def make_mesh_error(record: MeshConvergenceRecord) -> Section:
+    """Return how far each headline number is from that of a finer mesh."""
+    errors = record.errors
+    if not errors:
+        reason = record.study.reason or "no results"
+        return Section("Mesh error", words=f"Not measured: {reason}")
+    names = list(dict.fromkeys(name for one in errors.values() for name in one))
+    header = ["difference to the fine mesh", *(f"{name} [%]" for name in errors)]
+    rows = [
+        (name_quantity(name), *(_percent(one.get(name)) for one in errors.values()))
+        for name in names
+    ]
+    return Section("Mesh error", table=make_table(header, rows))
+
+
+def make_crosscheck(comparison: ComparisonRecord) -> Section:
+    """Return both codes side by side with their tolerance."""
+    passed = comparison.passed
+    words = "every quantity is within its tolerance" if passed else "not within tolerance"
+    note = comparison.reason
+    rows = [
+        (
+            name_quantity(name, item.unit),
+            item.primary,
+            item.independent,
+            _percent(item.relative_difference),
+            _percent(item.tolerance),
+            judge_met(item.passed),
+        )
+        for name, item in comparison.quantities.items()
+    ]
+    header = ("quantity", "primary", "independent", "difference [%]", "tolerance [%]", "within")
+    return Section(
+        "Cross-check by the independent code",
+        Box("good" if passed else "bad", f"{words}: {note}" if note else words),
+        table=make_table(header, rows) if rows else None,
+    )
+
+
+def _percent(value: float | None) -> float | None:
+    return None if value is None else 100 * value
