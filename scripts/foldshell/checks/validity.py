@@ -14,7 +14,7 @@ Width of a panel: the least altitude of its two facets. Bounds and where they co
 - a support that carries less than 1e-6 of all reactions, under every combination, carries nothing.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 
@@ -43,6 +43,7 @@ class ModelState:
     reactions : (S, 3, C) kN of supported nodes, None without an answer
     nodes : (S, 3) m, those nodes
     runs : (S,) number of the supported run that each of them belongs to
+    edge_beam : (2, B) m, thickness and width of the panels of an edge beam
     """
 
     thickness: np.ndarray
@@ -53,6 +54,7 @@ class ModelState:
     reactions: np.ndarray | None
     nodes: np.ndarray
     runs: np.ndarray
+    edge_beam: np.ndarray = field(default_factory=lambda: np.empty((2, 0)))
 
 
 def list_warnings(state: ModelState) -> list[str]:
@@ -66,6 +68,14 @@ def list_warnings(state: ModelState) -> list[str]:
         _warn(over_radius > OVER_RADIUS, over_radius, "thicker than 1/20 of the form's radius",
               state.radius, state, "thin-shell theory does not hold them"),
     ]  # fmt: skip
+    thickness, width = state.edge_beam
+    thick = thickness / width > THICKEST
+    if thick.any():
+        found.append(
+            f"{int(thick.sum())} of {len(thick)} panels of the edge beam are thicker than 1/10 of "
+            f"their width of {width.min():.3g} m and more: shear deformation, which is left out, "
+            "counts"
+        )
     if state.displacement is not None and state.displacement > OVER_SPAN * state.span:
         found.append(
             f"displacement of {state.displacement:.3g} m is more than 1/50 of the span of "

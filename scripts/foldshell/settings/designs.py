@@ -164,6 +164,11 @@ def _check_edge_beam(design: Design, where: str) -> None:
             f"{where}: edge_beam_depth_m: {depth:g}: with support all no border is free to carry "
             "an edge beam: 0 is allowed"
         )
+    if depth and thickness >= abs(depth):
+        raise InputError(
+            f"{where}: edge_beam_thickness_m: {thickness:g}: less than the depth of the edge beam, "
+            f"{abs(depth):g} m, is allowed"
+        )
 
 
 def _check_unique(designs: list[Design], lines: list[int], path: Path) -> None:

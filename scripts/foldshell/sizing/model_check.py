@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from typing import TYPE_CHECKING
 
+import numpy as np
+
 from foldshell.checks.validity import (
     ModelState,
     find_support_runs,
@@ -28,14 +30,16 @@ def find_warnings(done: Analysed) -> tuple[str, ...]:
     reactions = None
     if answered:
         reactions = support_reactions(model, done.result, done.thickness, done.case.material)
+    width = measure_widths(model.mesh)
     state = ModelState(
         thickness=task.thickness,
-        width=measure_widths(model.mesh)[:sized],
+        width=width[:sized],
         radius=measure_form_radii(model.mesh, sized),
         span=task.span,
         displacement=done.downward[0] if answered else None,
         reactions=reactions,
         nodes=model.mesh.nodes[supported],
         runs=find_support_runs(model.mesh, supported),
+        edge_beam=np.stack([model.fixed_thickness, width[sized:]]),
     )
     return tuple(list_warnings(state))

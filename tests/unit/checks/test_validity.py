@@ -146,6 +146,15 @@ def test_a_bound_itself_is_allowed(name, value):
     assert list_warnings(replace(GOOD, **{name: np.full(P, value)})) == []
 
 
+def test_a_stout_edge_beam_is_named():
+    """0.8 m x 300 mm is named, 0.8 m x 80 mm is at the bound and is not."""
+    beam = np.array([[0.08, 0.08], [0.8, 0.8]])
+    assert list_warnings(replace(GOOD, edge_beam=beam)) == []
+    beam[0, 1] = 0.3
+    (sentence,) = list_warnings(replace(GOOD, edge_beam=beam))
+    assert "1 of 2 panels of the edge beam are thicker than 1/10" in sentence
+
+
 def test_large_displacements_are_named():
     assert list_warnings(replace(GOOD, displacement=28 / 50)) == []
     (sentence,) = list_warnings(replace(GOOD, displacement=0.6))

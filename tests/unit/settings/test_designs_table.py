@@ -258,3 +258,11 @@ def test_panels_a_little_wider_than_thick_are_read(tmp_path):
     """A warning of the final state, not a refusal: design 5/2 of Table 1 starts at half of it."""
     settings = make_settings({"sizing": {"start_thickness_mm": 333, "least_thickness_mm": 40}})
     assert read(tmp_path, "design\tspan_m\tzigzag\tstrip\na\t5\t15\t16\n", settings)
+
+
+@pytest.mark.parametrize("depth", [0.4, -0.4])
+def test_an_edge_beam_thicker_than_deep_is_refused(tmp_path, depth):
+    row = "design\tsupport\tedge_beam_depth_m\tedge_beam_thickness_m\na\tstrip\t{}\t{}\n"
+    with pytest.raises(InputError, match=r"edge_beam_thickness_m: 0\.4: less"):
+        read(tmp_path, row.format(depth, 0.4))
+    assert read(tmp_path, row.format(depth, 0.39))
