@@ -52,10 +52,15 @@ def folder(tmp_path_factory):
         settings=stage("start", start_thickness=0.06), settings_hash="",
     )  # fmt: skip
     files = here / "analysis.json", here / "analysis.npz"
-    analyse.main(
-        shell, here / "thickness.xlsx", *files, design="small", iteration=0, span_m=SPAN, **PLACE,
-        settings=stage("analyse", iterations_max=0), settings_hash="base",
-    )  # fmt: skip
+
+    def run_analysis(**sizing):
+        """Analyse iteration 00; without any iteration allowed it is the last one."""
+        analyse.main(
+            shell, here / "thickness.xlsx", *files, design="small", iteration=0, span_m=SPAN,
+            **PLACE, settings=stage("analyse", **sizing), settings_hash="base",
+        )  # fmt: skip
+
+    run_analysis()
     after = loop / "01"
     resize.main(
         *files, after / "thickness.xlsx", after / "memory.npz", after / "written.json",
@@ -63,6 +68,7 @@ def folder(tmp_path_factory):
     )  # fmt: skip
     new = read_thickness(after / "thickness.xlsx", make_panel_grid(ZIGZAG, STRIP), 0.04, 1.0)
     assert new.shape == (PANELS,)
+    run_analysis(iterations_max=0)
     classes = loop / "classes.json", loop / "classes.npz"
     settings = stage("analyse")
     group.main(shell, [files[0]], *classes, span_m=SPAN, classes=2, settings=settings)
