@@ -15,7 +15,7 @@ for FORMAT in FORMATS:
             folded=rules.fold.output.folded,
             final=rules.size.output.arrays,
             report=rules.size.output.final,
-            classes=rules.group.output.arrays,
+            classes=CLASSES["arrays"],
             pattern=rules.pattern.output.fold,
             design_vtu=rules.draw.output.vtu,
             surface=surface_file,

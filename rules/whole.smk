@@ -1,7 +1,7 @@
 # The thickness loop as one job for each design: the same files as by the rules of sizing.smk and
 # final.smk, which it stands for. For clusters, large tables and searches.
 
-from foldshell.files.edits import is_edited
+from foldshell.records.edits import is_edited
 
 
 def given(values):

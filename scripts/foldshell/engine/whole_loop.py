@@ -7,10 +7,10 @@ from pathlib import Path
 
 from foldshell.engine.job import describe_job, find_home, name_job
 from foldshell.engine.task import Named, Task
-from foldshell.files.edits import WORKBOOK, keep_edited
 from foldshell.files.errors import InputError
 from foldshell.files.job_record import FOLDER, hash_inputs, read_record, state_of
 from foldshell.files.whole import read_json
+from foldshell.records.edits import WORKBOOK, keep_edited
 from foldshell.settings.field import Plain
 
 ITERATIONS_MAX = 100
