@@ -87,7 +87,7 @@ def _add_panels(book: Any, styles: Styles, report: DesignReport) -> None:
         columns.append(Column("class", "-", "integer", 10.0))
         values.append(report.thickness_class)
     rows = list(zip(*(column.tolist() for column in values), strict=True))
-    sheet = add_sheet(book, "panels")
+    sheet = add_sheet(book, "panels", landscape=False)
     write_table(sheet, styles, 0, columns, rows)
     last = len(rows) + 1
     sheet.autofilter(1, 0, last, len(values) - 1)

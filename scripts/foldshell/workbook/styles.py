@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
@@ -21,6 +22,13 @@ if TYPE_CHECKING:
 _CREATED = datetime(2000, 1, 1, tzinfo=UTC).replace(tzinfo=None)
 _BASE = {"font_name": "Arial", "font_size": 10, "valign": "vcenter"}
 _INK, _RULE = "#1F2937", "#9CA3AF"
+A3, A3_CHARACTERS, BLOCK_SCALE = 8, 195, 70
+"""Number of A3 among paper sizes, characters of 10 points across it (landscape, within its
+margins), and the per cent at which wide sheets are printed."""
+CELL_MARGIN = 0.8
+"""Room beside the characters of a cell, in characters."""
+LINE_HEIGHT, HEADER_SHARE = 13.5, 1.2
+"""Height of a line in points, and the room that a bold character of a header takes."""
 Options = dict[str, object]
 """Options of XlsxWriter."""
 _FORMATS: dict[str, Options] = {
@@ -156,6 +164,23 @@ def add_sheet(book: xlsxwriter.Workbook, name: str, landscape: bool = True) -> W
     return sheet
 
 
+def print_in_blocks(sheet: Worksheet, widths: Sequence[float]) -> None:
+    """Print a wide sheet on A3 in blocks of columns, `widths` in characters, each behind the first
+    column, which is repeated."""
+    sheet.set_paper(A3)
+    sheet.repeat_columns(0)
+    sheet.set_print_scale(BLOCK_SCALE)
+    taken = [width + CELL_MARGIN for width in widths]
+    room = A3_CHARACTERS * 100 / BLOCK_SCALE - taken[0]
+    breaks, used = [], 0.0
+    for column, width in enumerate(taken[1:], start=1):
+        if used + width > room:
+            breaks.append(column)
+            used = 0.0
+        used += width
+    sheet.set_v_pagebreaks(breaks)
+
+
 def write_value(sheet: Worksheet, row: int, column: int, value: Any, style: Format) -> None:
     """Write a number, truth value or text; None, or NaN for no result, leaves an empty cell."""
     if value is None or value != value:
@@ -226,6 +251,9 @@ def write_header(
     number_header = "header_upright" if upright else "header_number"
     if upright:
         sheet.set_row(row, 5.6 * max(len(name) for name, *_ in columns))
+    else:
+        lines = max(math.ceil(HEADER_SHARE * len(name) / width) for name, _, _, width in columns)
+        sheet.set_row(row, LINE_HEIGHT * max(lines, 1) + 3)
     for index, (name, unit, style, width) in enumerate(columns):
         text = style in ("text", "wrap")
         sheet.set_column(index, index, width if text or not upright else 9.0)

@@ -7,9 +7,14 @@ from typing import Any
 
 from foldshell.records.entry import COUNT, Entry, strip_null
 from foldshell.records.table import choose_columns, list_cells
-from foldshell.workbook.styles import JUDGED, Styles, write_header, write_value
-
-_LINE_HEIGHT = 13.5
+from foldshell.workbook.styles import (
+    JUDGED,
+    LINE_HEIGHT,
+    Styles,
+    print_in_blocks,
+    write_header,
+    write_value,
+)
 
 
 @dataclass(frozen=True)
@@ -26,6 +31,7 @@ _WIDTHS = {
     "design": 34.0,
     "tags": 36.0,
     "reason": 50.0,
+    "model_warnings": 50.0,
     "settings_hash": 14.0,
     "state": 24.0,
     "verdict": 24.0,
@@ -37,7 +43,7 @@ def make_column(about: Entry) -> Column:
     """Return the column of a field: header, unit and format come from its record."""
     width = max(10.0, min(18.0, 1.1 * len(about.key) + 2.0))
     if strip_null(about.type) not in (int, float):
-        style = "wrap" if about.key == "reason" else "text"
+        style = "wrap" if about.key in ("reason", "model_warnings") else "text"
         return Column(about.key, "", style, _WIDTHS.get(about.key, 11.0))
     unit = "-" if about.unit == COUNT else about.unit
     if about.form:
@@ -47,12 +53,19 @@ def make_column(about: Entry) -> Column:
     return Column(about.key, unit, "metre" if unit == "m" else "decimal", width)
 
 
+BLOCKS_FROM = 20
+"""A table of more columns is printed in blocks on A3, since it would be too small on one page."""
+
+
 def write_records(sheet: Any, styles: Styles, kind: type, rows: Sequence[Any]) -> list[Entry]:
     """Write a table of records from the first row on, headers of numbers turned; return its
     columns."""
     columns = choose_columns(kind, rows)
     made = [make_column(about) for about in columns]
     write_table(sheet, styles, 0, made, list_cells(columns, rows), upright=True)
+    if len(made) > BLOCKS_FROM:
+        texts = ("text", "wrap")
+        print_in_blocks(sheet, [one.width if one.style in texts else 9.0 for one in made])
     return columns
 
 
@@ -74,7 +87,7 @@ def write_table(
     for offset, cells in enumerate(rows, start=row + 2):
         lines = _count_lines(columns, cells)
         if lines > 1:
-            sheet.set_row(offset, _LINE_HEIGHT * lines)
+            sheet.set_row(offset, LINE_HEIGHT * lines)
         for index, (column, value) in enumerate(zip(columns, cells, strict=True)):
             style = styles[column.style]
             if column.key in JUDGED and value:
