@@ -55,6 +55,6 @@ def analyse_flat(
 
 def _first_order(case: AnalysisCase, thickness: np.ndarray, span: float) -> float:
     """Return the largest downward displacement (m) of first order."""
-    linear = replace(case, options=case.options.changed(second_order=False))
-    report, _ = linear.run(IterationTask(0, span, thickness))
+    first_order = replace(case, options=case.options.changed(second_order=False))
+    report, _ = first_order.run(IterationTask(0, span, thickness))
     return report.displacement_vertical_max_m

@@ -24,7 +24,7 @@ class QuadMesh:
 
     @property
     def elements(self) -> np.ndarray:
-        """Corners, then middles, (E, 4 or 8)."""
+        """Corners, then middles, (E, 4 or 8), as numbers of nodes."""
         return np.concatenate([self.corners, self.middles], axis=1)
 
 

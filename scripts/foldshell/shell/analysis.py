@@ -151,24 +151,23 @@ def analyse_shell(
         solution = _Solution(model, thickness, material, values, options.solver)
     except NotPositiveDefiniteError:
         return _mechanism(model, names, forces @ factors, values, options.solver)
-    linear_cases = solution.solve(forces)
-    linear = linear_cases @ factors
+    first_order_cases = solution.solve(forces)
+    first_order = first_order_cases @ factors
     total = forces @ factors
     if not options.second_order:
-        return AnalysisResult("ok", "first order only", names, linear, linear, total)
-    buckling = solution.buckling(linear_cases, factors, start_modes)
+        return AnalysisResult("ok", "first order only", names, first_order, first_order, total)
+    buckling = solution.buckling(first_order_cases, factors, start_modes)
     lowest = int(np.argmin(buckling.factors))
     if buckling.factors[lowest] <= 1:
         reason = f"buckling factor {buckling.factors[lowest]:.4g} of {names[lowest]} is below 1"
-        return AnalysisResult("unstable", reason, names, linear, linear, total, buckling)
-    initial = _initial_shape(model, buckling, lowest, total, options.imperfection)
-    second = solution.second_order(linear, options, initial)
-    displacement = np.zeros_like(linear)
+        return AnalysisResult("unstable", reason, names, first_order, first_order, total, buckling)
+    imperfection = _initial_shape(model, buckling, lowest, total, options.imperfection)
+    second = solution.second_order(first_order, options, imperfection)
+    displacement = np.zeros_like(first_order)
     displacement[model.pattern.dofs] = second.displacement
     state, reason = _judge(names, second, buckling)
-    return AnalysisResult(
-        state, reason, names, displacement, linear, total, buckling, second, imperfection=initial
-    )
+    found = displacement, first_order, total, buckling, second
+    return AnalysisResult(state, reason, names, *found, imperfection=imperfection)
 
 
 def _judge(names, second: SecondOrderResult, buckling: BucklingResult) -> tuple[str, str]:
@@ -217,13 +216,13 @@ class _Solution:
         """Return membrane forces (E, 3, m, c) kN/m."""
         return membrane_forces(self._model.operators, displacement, self._thickness, self._modulus)
 
-    def buckling(self, linear_cases, factors, start) -> BucklingResult:
+    def buckling(self, first_order_cases, factors, start) -> BucklingResult:
         """Return the buckling factor and the mode of every combination."""
         # as few geometric stiffnesses as the combinations are independent
         mixing, weights, independent = np.linalg.svd(factors, full_matrices=False)
         rank = int((weights > 1e-12 * weights[0]).sum())
         factors = weights[:rank, None] * independent[:rank]
-        forces = self.forces(linear_cases @ mixing[:, :rank])
+        forces = self.forces(first_order_cases @ mixing[:, :rank])
         dofs = self._dofs
         multiply = make_geometric_products(self._model.operators, forces, dofs)
         # modes are kept in ascending order of freedoms, the factor works in its own
@@ -236,21 +235,21 @@ class _Solution:
         return replace(found, modes=found.modes[place])
 
     def second_order(
-        self, linear: np.ndarray, options: Analysis, initial: np.ndarray | None
+        self, first_order: np.ndarray, options: Analysis, imperfection: np.ndarray | None
     ) -> SecondOrderResult:
-        """Return second-order displacements, from an initial shape where there is one."""
+        """Return second-order displacements, from an imperfect shape where there is one."""
         dofs, operators = self._dofs, self._model.operators
 
         def correction(displacement: np.ndarray, _columns: np.ndarray) -> np.ndarray:
             """Return -K^-1 K_g(N(u)) u of displacements u (free, k), m and rad."""
-            full = np.zeros((len(linear), displacement.shape[1]))
+            full = np.zeros((len(first_order), displacement.shape[1]))
             full[dofs] = displacement
-            shape = full if initial is None else full + initial[:, None]
+            shape = full if imperfection is None else full + imperfection[:, None]
             force = apply_geometric(operators, self.forces(full), shape)
             return -self._factor.solve(force[dofs])
 
         return solve_second_order(
-            linear[dofs],
+            first_order[dofs],
             correction,
             options.second_order_tolerance,
             options.second_order_iterations_max,

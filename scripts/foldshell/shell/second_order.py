@@ -25,7 +25,7 @@ class SecondOrderResult:
 
 
 def solve_second_order(
-    linear: np.ndarray,
+    first_order: np.ndarray,
     correction: Callable[[np.ndarray, np.ndarray], np.ndarray],
     tolerance: float = 1e-8,
     iterations_max: int = 60,
@@ -34,22 +34,22 @@ def solve_second_order(
 
     Parameters
     ----------
-    linear : (free, c) first-order displacements
+    first_order : (free, c) first-order displacements
     correction : maps (u (free, k), numbers of the k columns) to -K^-1 K_g(N(u)) u, (free, k)
     tolerance : largest expected change, relative to the largest displacement of the column: the
         last change times the greater of the last two rates at which changes fell
     iterations_max : limit on evaluations of `correction`
     """
-    current = linear.copy()
-    residual = np.full(linear.shape[1], np.inf)
-    changes = np.full((3, linear.shape[1]), np.inf)
-    memory = [_AndersonColumn() for _ in range(linear.shape[1])]
+    current = first_order.copy()
+    residual = np.full(first_order.shape[1], np.inf)
+    changes = np.full((3, first_order.shape[1]), np.inf)
+    memory = [_AndersonColumn() for _ in range(first_order.shape[1])]
     iterations = 0
     while iterations < iterations_max:
         active = np.flatnonzero(~(residual <= tolerance))
         if not len(active) or not np.isfinite(current).all():
             break
-        image = linear[:, active] + correction(current[:, active], active)
+        image = first_order[:, active] + correction(current[:, active], active)
         iterations += 1
         for position, column in enumerate(active):
             step = image[:, position] - current[:, column]
