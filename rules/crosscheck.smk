@@ -5,6 +5,7 @@ rule neutral_model:
     input:
         mesh=rules.mesh.output.mesh,
         final=rules.size.output.arrays,
+        report=rules.size.output.final,
         library=code_inputs("neutral_model"),
     output:
         model=f"{RESULTS}/{{design}}/crosscheck/model.json",
@@ -27,6 +28,7 @@ rule mesh_convergence:
     input:
         folded=rules.fold.output.folded,
         final=rules.size.output.arrays,
+        report=rules.size.output.final,
         library=code_inputs("mesh_convergence"),
     output:
         study=f"{RESULTS}/{{design}}/mesh_convergence.json",

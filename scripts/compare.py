@@ -3,13 +3,14 @@
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from crosscheck.errors import CrosscheckError, report_errors
+from crosscheck.errors import report_errors
 from crosscheck.model import read_model
 from crosscheck.primary import read_primary, read_reason
 from crosscheck.reading import write_json
 from crosscheck.records import MULTIFRONTAL, to_data
+from crosscheck.stability import Method
 from crosscheck.system import SHEAR_FACTOR
-from crosscheck.verdict import compare_codes, leave_out
+from crosscheck.verdict import check_meshes, compare_codes, leave_out
 from crosscheck.workbook import write_comparison
 
 
@@ -30,17 +31,16 @@ def main(
     `subdivisions` are the elements along a block side of each mesh, coarse to fine, of the first
     comparison; where codes differ, a second one on finer meshes stands. `tolerance`
     overrides relative tolerances by quantity; `stability` adds the buckling factors and values
-    of second order that the primary code gives. `shear_factor` 5/6 is the physical plate;
-    `solver` scipy takes the plain path. A mechanism has nothing to compare: `pass` is null.
+    of second order that the primary code gives, and what shear adds. `shear_factor` 5/6 is the
+    physical plate; `solver` scipy takes the plain path. A mechanism has nothing to compare:
+    `pass` is null, with the reason.
     """
     model, reason = read_model(model_path), read_reason(primary_path)
-    meshes = [int(m) for m in subdivisions]
-    if not meshes or any(m < 1 for m in meshes) or meshes != sorted(set(meshes)):
-        raise CrosscheckError(f"crosscheck.subdivisions: {meshes}: allowed are increasing, from 1")
+    meshes = check_meshes(subdivisions)
     if reason is None:
         primary = read_primary(primary_path, model.compared_combinations)
-        how = (meshes, tolerance or {}, stability, shear_factor, solver)
-        result = compare_codes(model, primary, *how)
+        method = Method(shear_factor, stability, stability, stability, solver)
+        result = compare_codes(model, primary, meshes, tolerance or {}, method)
     else:
         result = leave_out(None, reason, solver)
     write_comparison(workbook_path, model.design, result)

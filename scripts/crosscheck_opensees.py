@@ -4,12 +4,12 @@ import csv
 from collections.abc import Sequence
 from pathlib import Path
 
-from crosscheck.comparison import build_independent
 from crosscheck.errors import CrosscheckError, report_errors
 from crosscheck.model import read_model
 from crosscheck.opensees import list_opensees_values, list_rows, open_opensees
 from crosscheck.primary import read_primary, read_reason
 from crosscheck.reading import write_whole
+from crosscheck.values import build_independent
 
 ORDER = 2.0
 """Order in 1/n at which flat triangles settle."""

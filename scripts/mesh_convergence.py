@@ -6,9 +6,10 @@ from pathlib import Path
 from foldshell.engine.job import run_job
 from foldshell.files.whole import read_arrays
 from foldshell.loads.cases import make_load_cases
+from foldshell.records.analysis import read_analysis
 from foldshell.records.files import write_record
-from foldshell.records.mesh_convergence import MeshConvergenceRecord
-from foldshell.results.mesh_convergence import estimate_errors, find_largest_errors, study_mesh
+from foldshell.results.governing import choose_combinations
+from foldshell.results.mesh_convergence import make_record, study_mesh
 from foldshell.settings.analysed import LOADED
 from foldshell.settings.crosscheck import Crosscheck
 from foldshell.settings.stage import Plain, read_stage
@@ -18,6 +19,7 @@ from foldshell.shell.edge_beams import make_edge_beam
 def main(
     folded_path: str | Path,
     final_path: str | Path,
+    report_path: str | Path,
     study_path: str | Path,
     primary_path: str | Path,
     *,
@@ -26,11 +28,10 @@ def main(
     subdivisions: int,
     settings: Plain,
 ) -> None:
-    """Write mesh_convergence.json (errors of the mesh in use), crosscheck/primary.json; those of a
-    mechanism hold the reason in place of numbers."""
-    given = read_stage(settings, *LOADED, Crosscheck)
-    compared = given.crosscheck.strength, given.crosscheck.deflection
-    combinations = {name: given.combinations.all[name] for name in compared}
+    """Write mesh_convergence.json and crosscheck/primary.json; the reason for a mechanism."""
+    given, report = read_stage(settings, *LOADED, Crosscheck), read_analysis(report_path)
+    compared = choose_combinations(given.crosscheck, given.combinations, report)
+    names = [*compared["strength"], *compared["deflection"]]
     study = study_mesh(
         read_arrays(folded_path),
         support,
@@ -38,14 +39,10 @@ def main(
         subdivisions,
         given.material,
         make_load_cases(given.loads, given.material.unit_weight),
-        combinations,
+        {name: given.combinations.all[name] for name in names},
         make_edge_beam(*edge_beam),
     )
-    errors = estimate_errors(study)
-    record = MeshConvergenceRecord(
-        **find_largest_errors(errors), subdivisions=subdivisions, errors=errors, study=study
-    )
-    write_record(study_path, record)
+    write_record(study_path, make_record(study))
     write_record(primary_path, study)
 
 
@@ -54,6 +51,7 @@ if "snakemake" in globals():
         main(
             snakemake.input.folded,  # noqa: F821
             snakemake.input.final,  # noqa: F821
+            snakemake.input.report,  # noqa: F821
             snakemake.output.study,  # noqa: F821
             snakemake.output.primary,  # noqa: F821
             **snakemake.params,  # noqa: F821

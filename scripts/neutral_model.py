@@ -5,6 +5,8 @@ from pathlib import Path
 from foldshell.engine.job import run_job
 from foldshell.exchange.neutral_model import make_neutral_model
 from foldshell.files.whole import read_arrays, write_json
+from foldshell.records.analysis import read_analysis
+from foldshell.results.governing import choose_combinations, find_limits
 from foldshell.settings.analysed import LOADED
 from foldshell.settings.crosscheck import Crosscheck
 from foldshell.settings.stage import Plain, read_stage
@@ -13,15 +15,18 @@ from foldshell.settings.stage import Plain, read_stage
 def main(
     mesh_path: str | Path,
     final_path: str | Path,
+    report_path: str | Path,
     model_path: str | Path,
     *,
     design: str,
     settings: Plain,
 ) -> None:
-    """Write crosscheck/model.json from mesh.npz and the final thicknesses."""
-    thickness = read_arrays(final_path)["thickness"]
+    """Write crosscheck/model.json from mesh.npz and the final state."""
+    mesh, thickness = read_arrays(mesh_path), read_arrays(final_path)["thickness"]
     given = read_stage(settings, *LOADED, Crosscheck)
-    model = make_neutral_model(design, read_arrays(mesh_path), thickness, given)
+    report = read_analysis(report_path)
+    compared = choose_combinations(given.crosscheck, given.combinations, report)
+    model = make_neutral_model(design, mesh, thickness, given, compared, find_limits(report))
     write_json(model_path, model)
 
 
@@ -30,6 +35,7 @@ if "snakemake" in globals():
         main(
             snakemake.input.mesh,  # noqa: F821
             snakemake.input.final,  # noqa: F821
+            snakemake.input.report,  # noqa: F821
             snakemake.output.model,  # noqa: F821
             design=snakemake.wildcards.design,  # noqa: F821
             **snakemake.params,  # noqa: F821

@@ -5,6 +5,7 @@ import json
 from pathlib import Path
 
 import numpy as np
+from scipy.sparse import coo_matrix
 
 DATA = Path(__file__).parent / "data"
 
@@ -85,3 +86,44 @@ def write_model(path: Path, model: dict) -> Path:
     """Write a model as the chain does."""
     path.write_text(json.dumps(model), encoding="utf-8")
     return path
+
+
+def describe_primary(runs: list[dict], subdivisions: list[int], order: float = 3.0) -> dict:
+    """Values of runs on several meshes as the primary code writes them.
+
+    Second-order values stand within their combination, reactions by support.
+    """
+    values = {c: {k: [run[c][k] for run in runs] for k in runs[0][c]} for c in runs[0]}
+    for entry in values.values():
+        meshes = entry.get("support_reactions_kn")
+        if meshes:
+            entry["support_reactions_kn"] = {k: [mesh[k] for mesh in meshes] for k in meshes[0]}
+    for name in [name for name in values if name.endswith(" Th.II")]:
+        values[name.removesuffix(" Th.II")]["second_order"] = values.pop(name)
+    return {"subdivisions": subdivisions, "order": order, "combinations": values}
+
+
+def describe_strip(
+    length: float, width: float, thickness: float, parts: int, poisson: float = 0.0
+) -> dict:
+    """A flat strip along x of `parts` panels, pinned at both ends: a beam where poisson is 0."""
+    x = np.linspace(0.0, length, parts + 1)
+    vertices = np.array([[place, y, 0.0] for y in (0.0, width) for place in x])
+    over = parts + 1
+    facets = [
+        facet
+        for k in range(parts)
+        for facet in ([k, k + 1, over + k + 1], [k, over + k + 1, over + k])
+    ]
+    data = describe_model(vertices, facets, [[0, over], [parts, over + parts]], thickness)
+    data["material"] |= {"poissons_ratio": poisson}
+    return data
+
+
+def assemble_skeleton(matrices, equations, size):
+    """The same sum as the fronts', as one sparse matrix; -1 stands for no equation."""
+    place = equations.reshape(len(equations), -1)
+    rows = np.broadcast_to(place[:, :, None], matrices.shape)
+    columns = np.broadcast_to(place[:, None, :], matrices.shape)
+    keep = (rows >= 0) & (columns >= 0)
+    return coo_matrix((matrices[keep], (rows[keep], columns[keep])), shape=(size, size)).tocsc()

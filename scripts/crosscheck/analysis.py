@@ -11,9 +11,18 @@ from crosscheck.errors import CrosscheckError, MechanismError
 from crosscheck.frontal import NotPositiveDefinite, Plan
 from crosscheck.loads import combine_cases, compute_surface_loads, distribute_loads
 from crosscheck.model import Model
+from crosscheck.reactions import sum_supports
 from crosscheck.records import MULTIFRONTAL, SCIPY
 from crosscheck.stress import compute_panel_means, compute_percentile, compute_utilization
-from crosscheck.system import SHEAR_FACTOR, Response, Section, System, build_system, solve_loads
+from crosscheck.system import (
+    SHEAR_FACTOR,
+    Response,
+    Section,
+    State,
+    System,
+    build_system,
+    solve_loads,
+)
 
 if TYPE_CHECKING:
     from crosscheck.plain import PlainSystem
@@ -75,17 +84,15 @@ def _choose_solver(solver: str) -> tuple[Callable, Callable]:
 
 
 def measure_response(
-    analysis: Analysis, response: Response, case: int, forces: np.ndarray
+    analysis: Analysis, state: State, case: int, forces: np.ndarray
 ) -> dict[str, float]:
-    """Displacement, work of `forces` (F, R, 3) and utilization for one column of a response.
+    """Displacement, work of `forces` (F, R, 3) and utilization for one column of a state.
 
     Forces in kN, displacement in m, work in kNm.
     """
     model, grid = analysis.model, analysis.system.grid
-    moved = response.displacement[..., case]
-    use = compute_utilization(
-        grid, analysis.system.section, model.material, response.local[..., case]
-    )
+    moved = state.displacement[..., case]
+    use = compute_utilization(grid, analysis.system.section, model.material, state.local[..., case])
     means = compute_panel_means(use, grid.quadrature.area, model.facet_panel)
     return {
         "displacement_down_max_m": float(-moved[..., 2].min()),
@@ -102,14 +109,28 @@ def sum_loads(grid: Discretisation, surface: np.ndarray) -> np.ndarray:
     return np.einsum("f,fxk->xk", area, surface)
 
 
-def list_values(analysis: Analysis) -> dict[str, dict[str, object]]:
-    """First-order values of each compared combination."""
-    grid, response = analysis.system.grid, analysis.response
-    loads = sum_loads(grid, analysis.surface)
-    result = {}
-    for case, name in enumerate(analysis.model.compared_combinations):
-        result[name] = measure_response(analysis, response, case, analysis.forces[..., case]) | {
+def list_statics(
+    analysis: Analysis, response: Response, loads: np.ndarray
+) -> list[dict[str, object]]:
+    """Loads (3, k) and reactions of each column, those of all and of each support: kN."""
+    supports = sum_supports(analysis.model, analysis.system.grid.mesh, response.reactions)
+    return [
+        {
             "reaction_sum_kn": response.reaction_sum[:, case].tolist(),
             "load_sum_kn": loads[:, case].tolist(),
+            "support_reactions_kn": {
+                name: sums[:, case].tolist() for name, sums in supports.items()
+            },
         }
-    return result
+        for case in range(loads.shape[1])
+    ]
+
+
+def list_values(analysis: Analysis) -> dict[str, dict[str, object]]:
+    """First-order values of each compared combination."""
+    response = analysis.response
+    statics = list_statics(analysis, response, sum_loads(analysis.system.grid, analysis.surface))
+    return {
+        name: measure_response(analysis, response, case, analysis.forces[..., case]) | statics[case]
+        for case, name in enumerate(analysis.model.compared_combinations)
+    }

@@ -1,39 +1,15 @@
 """Two codes side by side: limits, differences, tolerances, mesh errors."""
 
-from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import replace
 from typing import Any
 
 import numpy as np
 
-from crosscheck.extrapolation import (
-    ORDER,
-    compute_mesh_error,
-    extrapolate,
-    measure_order,
-)
+from crosscheck.extrapolation import compute_mesh_error
 from crosscheck.reading import Place
-from crosscheck.records import MULTIFRONTAL, Comparison, Limit, Quantity
-
-SECOND_ORDER = "Th.II"
-"""Second-order values of combination S2 stand under `S2 Th.II`."""
-
-NOT_SETTLED = None
-"""Stands for a value whose iteration ended before it settled."""
-
-KINDS: dict[str, tuple[str, str]] = {
-    "displacement_down_max_m": ("displacement", "m"),
-    "displacement_max_m": ("displacement", "m"),
-    "work_knm": ("work", "kNm"),
-    "utilization_p99": ("utilization_p99", "-"),
-    "utilization_panel_mean_max": ("utilization_panel_mean", "-"),
-    "buckling_factor": ("buckling_factor", "-"),
-}
-"""Scalar values of a combination: the tolerance each is held to, and its unit."""
-
-NOT_EXTRAPOLATED = ("utilization_p99",)
-"""A percentile of sampled peaks goes up and down from mesh to mesh (by 1 to 4 %): the finest
-mesh stands, and what extrapolation would add is its mesh error."""
+from crosscheck.records import MULTIFRONTAL, Comparison, Limit, Quantity, SupportReaction
+from crosscheck.values import KINDS, NOT_SETTLED, SUPPORTS, Code
 
 TOLERANCES = {
     "displacement": 0.04,
@@ -43,89 +19,51 @@ TOLERANCES = {
     "buckling_factor": 0.08,
     "reaction": 1e-6,
     "reaction_balance": 1e-6,
+    "support_reaction": 0.04,
 }
 """Relative. Displacement and work: two limits of 1 to 2.5 % each; utilization and buckling factor
-follow derivatives and modes, which settle later; reactions are statics, where only rounding may
-differ."""
-
-
-@dataclass(frozen=True)
-class Code:
-    """One code's values: `values[combination][name]` holds a value a mesh, coarse to fine.
-
-    Second-order values stand under a combination of their own, `<combination> Th.II`.
-    """
-
-    subdivisions: Sequence[int]
-    values: Mapping[str, Mapping[str, Any]]
-    orders: Mapping[str, float]
-    default_order: float
-
-    @property
-    def names(self) -> set[str]:
-        """All quantities that some combination has."""
-        return {name for values in self.values.values() for name in values}
-
-    def limit(self, combination: str, name: str) -> tuple[float, float | None]:
-        """The value that stands, and the order it was extrapolated with, None where it was not."""
-        if name in NOT_EXTRAPOLATED:
-            return float(self.values[combination][name][-1]), None
-        return self.extrapolate(combination, name)
-
-    def extrapolate(self, combination: str, name: str) -> tuple[float, float]:
-        """The extrapolated value and its order."""
-        values = self.values[combination][name]
-        order = self.orders.get(name, self.default_order)
-        order = measure_order(self.subdivisions, values, order)
-        return extrapolate(self.subdivisions, values, order), order
-
-
-def build_independent(
-    subdivisions: Sequence[int], runs: Sequence[Mapping[str, Any]], order: float = ORDER
-) -> Code:
-    """This code's values from one `list_values` dictionary a mesh."""
-    shared = [name for name in runs[0] if all(name in run for run in runs)]
-    values = {name: _collect([run[name] for run in runs]) for name in shared}
-    return Code(subdivisions, values, {}, order)
-
-
-def _collect(entries: Sequence[Mapping[str, Any]]) -> dict[str, list]:
-    """One list a quantity from one dictionary a mesh."""
-    return {name: [entry[name] for entry in entries] for name in entries[0]}
+follow derivatives and modes, which settle later; the sum of reactions is statics, where only
+rounding may differ; that of one support follows stiffness as displacement does."""
 
 
 def compare(
-    primary: Code, independent: Code, tolerances: Mapping[str, float], solver: str = MULTIFRONTAL
+    primary: Code,
+    independent: Code,
+    tolerances: Mapping[str, float],
+    solver: str = MULTIFRONTAL,
+    thrusts: Mapping[str, np.ndarray] | None = None,
 ) -> Comparison:
     """Quantity by quantity: both limits, relative difference, tolerance, pass; and mesh errors.
 
     Compared is what both codes give; what only one gives is listed as `not_compared`. What this
     code has not settled on some mesh, and the other gives, is listed as `not_settled`: there is
-    no number to compare, and the comparison fails.
+    no number to compare, and the comparison fails. `thrusts` are the unit vectors (3,) of
+    `find_thrusts`: the reactions of these supports are compared.
     """
     allowed = TOLERANCES | read_tolerances(tolerances)
     quantities: dict[str, Quantity] = {}
-    not_settled: list[str] = []
+    reactions: dict[str, SupportReaction] = {}
     missing = [name for name in primary.values if name not in independent.values]
+    not_settled: list[str] = []
     for combination, values in independent.values.items():
         given = primary.values.get(combination, {})
-        for name in values:
-            if name not in given:
-                missing.append(f"{combination} {name}")
-            elif name in KINDS:
-                label = f"{combination} {name}"
-                if NOT_SETTLED in values[name]:
-                    not_settled.append(label)
-                    continue
-                quantities[label] = _compare_scalar(
-                    primary, independent, combination, name, allowed
-                )
+        missing += [f"{combination} {name}" for name in values if name not in given]
+        shared = [name for name in values if name in given and name in KINDS]
+        lost = [name for name in shared if NOT_SETTLED in values[name]]
+        not_settled += [f"{combination} {name}" for name in lost]
+        for name in (name for name in shared if name not in lost):
+            found = _compare_scalar(primary, independent, combination, name, allowed)
+            quantities[f"{combination} {name}"] = found
         if "reaction_sum_kn" in values and "reaction_sum_kn" in given:
             quantities |= _compare_reactions(given, values, combination, allowed)
-    agree = bool(quantities) and all(entry.passed for entry in quantities.values())
+        if SUPPORTS in values and SUPPORTS in given:
+            codes, held = (primary, independent), allowed["support_reaction"]
+            reactions |= _compare_supports(codes, combination, thrusts or {}, held)
+    entries = [*quantities.values(), *reactions.values()]
     return Comparison(
-        passed=agree and not not_settled,
+        passed=bool(quantities) and all(one.passed for one in entries) and not not_settled,
         quantities=quantities,
+        reactions=reactions,
         not_compared=missing,
         not_settled=not_settled,
         primary_subdivisions=list(primary.subdivisions),
@@ -182,6 +120,30 @@ def _compare_reactions(
     kept = bool(max(defect) <= balance.tolerance)
     balance = replace(balance, relative_difference=float(max(defect)), passed=kept)
     return entries | {f"{combination} reaction_imbalance": balance}
+
+
+def _compare_supports(
+    codes: tuple[Code, Code], combination: str, thrusts: Mapping[str, np.ndarray], tolerance: float
+) -> dict[str, SupportReaction]:
+    """The limits of both codes for each support, against the largest resultant of all."""
+    limits = [
+        {name: code.extrapolate_reaction(combination, name) for name in thrusts} for code in codes
+    ]
+    scale = max((np.linalg.norm(force) for found in limits for force in found.values()), default=0)
+    result = {}
+    for name, thrust in thrusts.items():
+        first, second = (found[name] for found in limits)
+        difference = float(np.linalg.norm(first - second) / scale) if scale > 0 else 0.0
+        result[f"{combination} {name}"] = SupportReaction(
+            primary_kn=first.tolist(),
+            independent_kn=second.tolist(),
+            primary_thrust_kn=float(first @ thrust),
+            independent_thrust_kn=float(second @ thrust),
+            relative_difference=difference,
+            tolerance=float(tolerance),
+            passed=bool(difference <= tolerance),
+        )
+    return result
 
 
 def _judge(

@@ -7,6 +7,7 @@ Methods Eng. 36 (1993) 3729-3754 for the tying of transverse shear.
 """
 
 from dataclasses import dataclass
+from functools import cache
 
 import numpy as np
 
@@ -91,46 +92,52 @@ def compute_plane_stiffness(quadrature: Quadrature, poisson: float) -> np.ndarra
     return np.swapaxes(weighted, -1, -2) @ weighted
 
 
-def _tie_shear(xy: np.ndarray, direction: int) -> tuple[np.ndarray, np.ndarray]:
-    """Natural shear along r (0) or s (1) at its six tying points, and their weights.
+def compute_tied_shear(xy: np.ndarray) -> np.ndarray:
+    """Natural shear at the six tying points along r and the six along s: (..., 12, 27).
 
-    Returns the operator (..., 6, 9, 3) on (w, bx, by) and the interpolation (9 points, 6).
+    Acts on (w, bx, by), node-major, of elements with node coordinates `xy` (..., 9, 2) in m.
     """
-    r, s = build_grid(TIE, GAUSS) if direction == 0 else build_grid(GAUSS, TIE)
-    shape, slope = evaluate_shape(r, s)
-    tangent = np.einsum("ta,...ax->...tx", slope[..., direction], xy, optimize=True)
-    operator = np.empty((*xy.shape[:-2], 6, 9, 3))
-    operator[..., 0] = slope[..., direction]
-    operator[..., 1:] = shape[:, :, None] * tangent[..., :, None, :]
+    operator = np.empty((*xy.shape[:-2], 2, 6, 9, 3))
+    for direction, (r, s) in enumerate((build_grid(TIE, GAUSS), build_grid(GAUSS, TIE))):
+        shape, slope = evaluate_shape(r, s)
+        tangent = slope[..., direction] @ xy
+        operator[..., direction, :, :, 0] = slope[..., direction]
+        operator[..., direction, :, :, 1:] = shape[:, :, None] * tangent[..., :, None, :]
+    return operator.reshape(*xy.shape[:-2], 12, 27)
+
+
+@cache
+def _interpolate_ties() -> np.ndarray:
+    """Natural shear at the Gauss points from that at its tying points: (2 directions, 9, 6)."""
     at_r, at_s = build_grid(GAUSS, GAUSS)
-    along, across = (at_r, at_s) if direction == 0 else (at_s, at_r)
-    linear = np.stack([1 - along / TIE[1], 1 + along / TIE[1]], axis=-1) / 2
-    quadratic = _lagrange(across / GAUSS[2])[0]
-    if direction == 0:
-        weights = quadratic[:, :, None] * linear[:, None, :]
-    else:
-        weights = linear[:, :, None] * quadratic[:, None, :]
-    return operator, weights.reshape(9, 6)
+    weights = []
+    for direction, (along, across) in enumerate(((at_r, at_s), (at_s, at_r))):
+        linear = np.stack([1 - along / TIE[1], 1 + along / TIE[1]], axis=-1) / 2
+        quadratic = _lagrange(across / GAUSS[2])[0]
+        outer, inner = (quadratic, linear) if direction == 0 else (linear, quadratic)
+        weights.append((outer[:, :, None] * inner[:, None, :]).reshape(9, 6))
+    return np.array(weights)
 
 
-def compute_shear_operator(xy: np.ndarray, quadrature: Quadrature) -> np.ndarray:
-    """Transverse shear strain (xz, yz) at the Gauss points: (..., 9, 2, 9, 3) on (w, bx, by).
+def integrate_tied_shear(quadrature: Quadrature) -> np.ndarray:
+    """S = integral of products of interpolated shear, over the element: (..., 12, 12) in m2.
 
-    xy (..., 9, 2) m; strains per m of w and per rad of b, so 1/m and 1.
+    With the shear g at the tying points, g^T S g is the integral of the squared transverse shear
+    strain (xz, yz).
     """
-    natural = []
-    for direction in (0, 1):
-        operator, weights = _tie_shear(xy, direction)
-        flat = operator.reshape(*xy.shape[:-2], 6, 27)
-        natural.append(weights @ flat)
-    natural = np.stack(natural, axis=-2)  # (..., 9, 2, 27)
-    local = quadrature.inverse @ natural
-    return local.reshape(*xy.shape[:-2], 9, 2, 9, 3)
+    metric = np.swapaxes(quadrature.inverse, -1, -2) @ quadrature.inverse  # natural x natural
+    metric *= quadrature.area[..., None, None]
+    ties = _interpolate_ties()
+    total = np.empty((*quadrature.area.shape[:-1], 2, 6, 2, 6))
+    for n in range(2):
+        for m in range(2):
+            products = (ties[n][:, :, None] * ties[m][:, None, :]).reshape(9, 36)
+            found = metric[..., n, m] @ products
+            total[..., n, :, m, :] = found.reshape(*found.shape[:-1], 6, 6)
+    return total.reshape(*total.shape[:-4], 12, 12)
 
 
 def compute_shear_stiffness(xy: np.ndarray, quadrature: Quadrature) -> np.ndarray:
     """K = integral of Bs^T Bs for unit shear rigidity: (..., 27, 27), node-major (w, bx, by)."""
-    operator = compute_shear_operator(xy, quadrature).reshape(*xy.shape[:-2], 9, 2, 27)
-    weighted = operator * np.sqrt(quadrature.area)[..., None, None]
-    weighted = weighted.reshape(*xy.shape[:-2], 18, 27)
-    return np.swapaxes(weighted, -1, -2) @ weighted
+    tied = compute_tied_shear(xy)
+    return np.swapaxes(tied, -1, -2) @ (integrate_tied_shear(quadrature) @ tied)

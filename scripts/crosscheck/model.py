@@ -8,12 +8,15 @@ import numpy as np
 
 from crosscheck.reading import Place, read_json
 
-FORMATS = ("foldshell-neutral-model 1", "foldshell-neutral-model 2")
-"""The second may name panels that carry their own weight only."""
+FORMATS = tuple(f"foldshell-neutral-model {number}" for number in (1, 2, 3))
+"""The second may name panels that carry their own weight only; the third names its supports, may
+compare several combinations of a kind, and says what the criteria allow."""
 CASES = ("SW", "SDL", "LL", "WX", "WY")
 FORMER_AREAS = {"mesh": "sheet", "plan": "plan_abs"}
 """Words of older model files."""
-
+KINDS = ("strength", "deflection")
+LIMITS = ("displacement_down_max_m", "utilization_panel_mean_max")
+"""What the primary code's criteria may limit."""
 CRITERIA = ("von_mises", "rankine", "drucker_prager")
 
 
@@ -42,20 +45,29 @@ class Loads:
 
 
 @dataclass(frozen=True)
+class Support:
+    """Facet sides that are pinned, under one name."""
+
+    name: str
+    edges: np.ndarray  # (K, 2) vertex pairs
+
+
+@dataclass(frozen=True)
 class Model:
-    """A folded shell: flat facets, one thickness per panel, pinned edges, loads."""
+    """A folded shell: flat facets, one thickness per panel, supports, loads."""
 
     design: str
     vertices: np.ndarray  # (V, 3) m
     facets: np.ndarray  # (F, 3) counter-clockwise from above
     facet_panel: np.ndarray  # (F,)
     panel_thickness: np.ndarray  # (P,) m
-    supported_edges: np.ndarray  # (S, 2) vertex pairs
+    supports: tuple[Support, ...]
     material: Material
     loads: Loads
     combinations: dict[str, dict[str, float]]
-    compared: dict[str, str]  # strength and deflection: a combination each
+    compared: dict[str, list[str]]  # strength and deflection: combinations of each
     bare_panels: np.ndarray = field(default_factory=lambda: np.empty(0, int))  # own weight only
+    limits: dict[str, float] = field(default_factory=dict)  # LIMITS, those that are known
 
     @property
     def thickness(self) -> np.ndarray:
@@ -70,7 +82,13 @@ class Model:
     @property
     def compared_combinations(self) -> dict[str, dict[str, float]]:
         """The factors of the combinations that are compared."""
-        return {name: self.combinations[name] for name in dict.fromkeys(self.compared.values())}
+        names = dict.fromkeys(name for kind in KINDS for name in self.compared[kind])
+        return {name: self.combinations[name] for name in names}
+
+    @property
+    def supported_edges(self) -> np.ndarray:
+        """Facet sides that some support holds, as numbers of vertices: (S, 2)."""
+        return np.concatenate([support.edges for support in self.supports])
 
 
 def read_model(path: str | Path) -> Model:
@@ -81,13 +99,12 @@ def read_model(path: str | Path) -> Model:
     facets = root.key("facets").indices(3, len(vertices))
     thickness = root.key("panel_thickness_m").numbers(None, above=0.0)
     panel = root.key("facet_panel").indices(None, len(thickness))
-    edges = root.key("supported_edges").indices(2, len(vertices))
     _check_facets(root, vertices, facets, panel, len(thickness))
-    _check_supports(root, facets, edges)
+    supports = _read_supports(root, format_name, facets, len(vertices))
     combinations = _read_combinations(root.key("combinations"))
     compared = {
-        kind: root.key("compare").key(kind).one_of(list(combinations))
-        for kind in ("strength", "deflection")
+        kind: _read_compared(root.key("compare").key(kind), format_name, list(combinations))
+        for kind in KINDS
     }
     return Model(
         design=root.key("design").text(),
@@ -95,17 +112,19 @@ def read_model(path: str | Path) -> Model:
         facets=facets,
         facet_panel=panel,
         panel_thickness=thickness,
-        supported_edges=edges,
+        supports=supports,
         material=_read_material(root.key("material")),
         loads=_read_loads(root),
         combinations=combinations,
         compared=compared,
         bare_panels=_read_bare_panels(root, format_name, len(thickness)),
+        limits=_read_limits(root.key("limits", {})),
     )
 
 
 def _read_bare_panels(root: Place, format_name: str, panels: int) -> np.ndarray:
-    if format_name == FORMATS[0]:
+    unsaid = format_name == FORMATS[2] and "self_weight_only_panels" not in root.names()
+    if format_name == FORMATS[0] or unsaid:
         return np.empty(0, dtype=int)
     return root.key("self_weight_only_panels").indices(None, panels)
 
@@ -128,12 +147,46 @@ def _check_facets(
         root.key("facets").at(int(flat[0])).refuse(facets[flat[0]].tolist(), "a true triangle")
 
 
-def _check_supports(root: Place, facets: np.ndarray, edges: np.ndarray) -> None:
+def _read_compared(place: Place, format_name: str, names: list[str]) -> list[str]:
+    """One combination, or from format 3 on a list of them."""
+    if format_name != FORMATS[-1]:
+        return [place.one_of(names)]
+    return list(dict.fromkeys(entry.one_of(names) for entry in place.entries()))
+
+
+def _read_limits(place: Place) -> dict[str, float]:
+    for name in place.names():
+        if name not in LIMITS:
+            place.refuse(name, "one of " + ", ".join(LIMITS))
+    return {name: place.key(name).number(above=0.0) for name in place.names()}
+
+
+def _read_supports(
+    root: Place, format_name: str, facets: np.ndarray, vertices: int
+) -> tuple[Support, ...]:
+    """Supports by name; before format 3 all supported edges are one."""
+    if format_name == FORMATS[-1]:
+        entries = root.key("supports").entries()
+        places = [(entry.key("name").text(), entry.key("edges")) for entry in entries]
+    else:
+        places = [("supports", root.key("supported_edges"))]
+    names = [name for name, _ in places]
+    if len(set(names)) < len(names):
+        root.key("supports").refuse(names, "a name of its own for each support")
+    supports = []
+    for name, place in places:
+        edges = place.indices(2, vertices)
+        _check_sides(place, facets, edges)
+        supports.append(Support(name, edges))
+    return tuple(supports)
+
+
+def _check_sides(place: Place, facets: np.ndarray, edges: np.ndarray) -> None:
     sides = np.sort(np.stack([facets, np.roll(facets, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
     known = {tuple(side) for side in sides.tolist()}
     for k, edge in enumerate(np.sort(edges, axis=1).tolist()):
         if tuple(edge) not in known:
-            root.key("supported_edges").at(k).refuse(edge, "two vertices that share a facet side")
+            place.at(k).refuse(edge, "two vertices that share a facet side")
 
 
 def _read_material(place: Place) -> Material:

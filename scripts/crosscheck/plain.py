@@ -17,7 +17,7 @@ path does beside this (condensing facets, fronts, block Lanczos, Anderson's mixi
 element matrices, loads and membrane forces N are those of `element.py`, `loads.py`, `stress.py`.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.sparse import coo_matrix, csc_matrix, csr_matrix
@@ -114,6 +114,12 @@ def solve_plain_loads(system: PlainSystem, forces: np.ndarray) -> Response:
     return _respond(system, moved, system.elements, load)
 
 
+def solve_plain_sheared(system: PlainSystem, forces: np.ndarray, shear_factor: float) -> Response:
+    """The same, forces (F, R, 3, c) in kN, with another shear factor of the plate."""
+    section = replace(system.section, shear_factor=shear_factor)
+    return solve_plain_loads(build_plain_system(system.grid, section), forces)
+
+
 def find_plain_reactions(
     system: PlainSystem, elements: csr_matrix, local: np.ndarray, load: np.ndarray
 ) -> np.ndarray:
@@ -176,7 +182,7 @@ def _respond(
     local = (system.connection @ moved).reshape(load.shape)
     displacement = np.einsum("fij,fric->frjc", system.grid.axes, local[:, :, :3])
     reactions = find_plain_reactions(system, elements, local, load)
-    return Response(local, displacement, reactions.sum(axis=0))
+    return Response(local, displacement, reactions)
 
 
 def _flatten(values: np.ndarray) -> np.ndarray:

@@ -4,9 +4,9 @@ from collections.abc import Iterable
 from itertools import pairwise
 from pathlib import Path
 
-from crosscheck.comparison import KINDS, SECOND_ORDER, Code
 from crosscheck.extrapolation import PRIMARY_ORDER
 from crosscheck.reading import Place, read_json
+from crosscheck.values import KINDS, SECOND_ORDER, SUPPORTS, Code
 
 VECTORS = ("reaction_sum_kn", "load_sum_kn")
 
@@ -48,10 +48,20 @@ def _read_values(place: Place, meshes: int) -> dict[str, list]:
     """The known quantities of one combination: a number, or a vector, a mesh."""
     values: dict[str, list] = {}
     for name in place.names():
-        if name not in KINDS and name not in VECTORS:
-            continue
-        entries = place.key(name).entries()
-        if len(entries) != meshes:
-            place.key(name).refuse(f"{len(entries)} values", f"{meshes}, one a mesh")
-        values[name] = [entry.row(3) if name in VECTORS else entry.number() for entry in entries]
+        if name in VECTORS:
+            values[name] = _read_meshes(place.key(name), meshes, 3)
+        elif name in KINDS:
+            values[name] = _read_meshes(place.key(name), meshes)
+        elif name == SUPPORTS:
+            given = place.key(name)
+            found = {one: _read_meshes(given.key(one), meshes, 3) for one in given.names()}
+            values[name] = [{one: found[one][mesh] for one in found} for mesh in range(meshes)]
     return values
+
+
+def _read_meshes(place: Place, meshes: int, width: int | None = None) -> list:
+    """A number, or a row of numbers, of each mesh."""
+    entries = place.entries()
+    if len(entries) != meshes:
+        place.refuse(f"{len(entries)} values", f"{meshes}, one a mesh")
+    return [entry.number() if width is None else entry.row(width) for entry in entries]

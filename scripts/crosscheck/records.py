@@ -1,7 +1,7 @@
 """What comparison.json holds: one class a kind of record, each field with its unit and meaning."""
 
 from collections.abc import Iterator, Mapping
-from dataclasses import MISSING, dataclass, fields
+from dataclasses import MISSING, dataclass, field, fields
 from typing import Annotated, Any, get_type_hints
 
 MULTIFRONTAL, SCIPY = "multifrontal", "scipy"
@@ -45,8 +45,39 @@ class Limit(Quantity):
     independent_mesh_error: Annotated[float, Said("finest mesh against the limit, relative", "-")]
 
 
+@dataclass(frozen=True)
+class SupportReaction:
+    """The reaction of one support in one combination by both codes, extrapolated."""
+
+    primary_kn: Annotated[list[float], Said("along x, y, z, primary code", "kN")]
+    independent_kn: Annotated[list[float], Said("along x, y, z, independent code", "kN")]
+    primary_thrust_kn: Annotated[float, Said("horizontal, at right angles to the edge", "kN")]
+    independent_thrust_kn: Annotated[float, Said("the same by the independent code", "kN")]
+    relative_difference: Annotated[
+        float, Said("length of the difference over the largest resultant of all supports", "-")
+    ]
+    tolerance: Annotated[float, Said("largest relative difference allowed", "-")]
+    passed: Annotated[bool, Passed]
+
+
+@dataclass(frozen=True)
+class ShearShare:
+    """What shear deformation adds to a value that a criterion limits, by the independent code."""
+
+    combination: Annotated[str, Said("that governs the criterion")]
+    share: Annotated[float, Said("relative increase of the value, of first order", "-")]
+    share_meshes: Annotated[list[float], Said("the same on each mesh, coarse to fine", "-")]
+    value: Annotated[float, Said("primary code, mesh in use, without shear", "m or -")]
+    limit: Annotated[float, Said("what the criterion allows", "m or -")]
+    with_shear: Annotated[float, Said("value times (1 + share)", "m or -")]
+    refined_with_shear: Annotated[float, Said("extrapolated value times (1 + share)", "m or -")]
+    turns: Annotated[bool, Said("whether shear alone turns the verdict")]
+    turns_refined: Annotated[bool, Said("whether shear and mesh error together turn it")]
+
+
 Subdivisions = Said("elements along a block's side, each mesh", "elements")
 ByName = Said("by `<combination> <quantity>`, `<combination> Th.II <quantity>` to second order")
+BySupport = Said("by `<combination> <support>`, `<combination> Th.II <support>` to second order")
 NotSettled = Said("quantities whose iteration the independent code ended early: no number")
 
 
@@ -56,6 +87,7 @@ class FirstComparison:
 
     independent_subdivisions: Annotated[list[int], Subdivisions]
     quantities: Annotated[dict[str, Quantity], ByName]
+    reactions: Annotated[dict[str, SupportReaction], BySupport]
     not_settled: Annotated[list[str], NotSettled]
 
 
@@ -65,11 +97,19 @@ class Comparison:
 
     passed: Annotated[bool | None, Said("null: nothing to compare, see `reason`", name="pass")]
     quantities: Annotated[dict[str, Quantity], ByName]
+    reactions: Annotated[dict[str, SupportReaction], BySupport]
     not_compared: Annotated[list[str], Said("quantities that one code alone gives")]
     not_settled: Annotated[list[str], NotSettled]
     primary_subdivisions: Annotated[list[float], Said("parts of a facet's side, each mesh")]
     independent_subdivisions: Annotated[list[int], Subdivisions]
     solver: Annotated[str, Said("of the independent code: multifrontal or scipy")]
+    governing: Annotated[
+        dict[str, str],
+        Said("compared combination that governs displacement, utilization, buckling"),
+    ] = field(default_factory=dict)
+    shear: Annotated[dict[str, ShearShare], Said("by the name of the limited quantity")] = field(
+        default_factory=dict
+    )
     reason: Annotated[str | None, Said("why nothing is compared; else left out")] = None
     first: Annotated[FirstComparison | None, Said("of two comparisons; else left out")] = None
 

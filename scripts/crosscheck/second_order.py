@@ -60,7 +60,7 @@ def apply_geometric(system: System, matrices: np.ndarray, local: np.ndarray) -> 
     moved = np.moveaxis(local[:, :, :3].reshape(count, places, 3, cases, -1), 3, 0)
     moved = moved.reshape(cases, count, places, -1)
     force = matrices @ np.take(moved, system.grid.elements, axis=2)
-    total = np.moveaxis(_sum_elements(system.grid, force).reshape(*moved.shape[:3], 3, -1), 0, 3)
+    total = np.moveaxis(sum_elements(system.grid, force).reshape(*moved.shape[:3], 3, -1), 0, 3)
     result = np.zeros_like(local)
     result[:, :, :3] = total.reshape(count, places, 3, -1)
     return result
@@ -84,11 +84,11 @@ def apply_own_geometric(system: System, local: np.ndarray) -> np.ndarray:
     flat = quadrature.gradient.reshape(*quadrature.gradient.shape[:3], 18, 9)
     result = np.zeros_like(local)
     nodal = np.swapaxes(flat, -1, -2) @ pull.reshape(*flat.shape[:-1], -1)
-    result[:, :, :3] = _sum_elements(system.grid, nodal).reshape(result[:, :, :3].shape)
+    result[:, :, :3] = sum_elements(system.grid, nodal).reshape(result[:, :, :3].shape)
     return result
 
 
-def _sum_elements(grid: Discretisation, force: np.ndarray) -> np.ndarray:
+def sum_elements(grid: Discretisation, force: np.ndarray) -> np.ndarray:
     """Forces on element nodes (..., 3, m^2, 9, k) as those on the facets' nodes (..., R, k)."""
     total = np.zeros((*force.shape[:-4], grid.mesh.facet_nodes.shape[1], force.shape[-1]))
     for block in range(3):

@@ -4,7 +4,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import numpy as np
-from scipy.sparse import coo_matrix, csc_matrix
 
 from crosscheck.discretisation import Discretisation
 from crosscheck.element import (
@@ -43,6 +42,14 @@ class Section:
 
 
 @dataclass(frozen=True)
+class Holding:
+    """Rows of stiffness at held translations: H facets that have such nodes, global x, y, z."""
+
+    facets: np.ndarray  # (H,)
+    rows: np.ndarray  # (H, 12m, 3, 72m) kN/m, zero where nothing is held
+
+
+@dataclass(frozen=True)
 class System:
     """A factored shell."""
 
@@ -50,17 +57,33 @@ class System:
     section: Section
     membrane: Substructure
     plate: Substructure
-    holding: np.ndarray  # (F, 3, 72m) sum over a facet's held nodes of their rows, global x, y, z
+    holding: Holding
     factor: Factor
 
 
 @dataclass(frozen=True)
-class Response:
-    """Displacements (F, R, 5, c) local (u, v, w, bx, by), and the sum of reactions (3, c) kN."""
+class State:
+    """Displacements of all facet nodes: local (u, v, w, bx, by) in m and rad, and global in m."""
 
-    local: np.ndarray
-    displacement: np.ndarray  # (F, R, 3, c) global, m
-    reaction_sum: np.ndarray
+    local: np.ndarray  # (F, R, 5, c)
+    displacement: np.ndarray  # (F, R, 3, c)
+
+
+@dataclass(frozen=True)
+class Response(State):
+    """Displacements, and the reactions at S skeleton nodes."""
+
+    reactions: np.ndarray  # (S, 3, c) kN, zero where nothing is held
+
+    @property
+    def reaction_sum(self) -> np.ndarray:
+        """Sum of the reactions: (3, c) in kN."""
+        return self.reactions.sum(axis=0)
+
+    def pick_cases(self, cases: np.ndarray) -> "Response":
+        """The response to some of the c cases, by their numbers (k,)."""
+        values = (self.local, self.displacement, self.reactions)
+        return Response(*(value[..., cases] for value in values))
 
 
 def compute_element_matrices(
@@ -75,13 +98,24 @@ def compute_element_matrices(
     plate = compute_shear_stiffness(grid.coordinates[part], quadrature)
     thickness = section.thickness[part, None, None, None, None]
     modulus = section.youngs_modulus
-    slender = quadrature.area.sum(axis=-1)[..., None, None] / thickness**2
-    shear_factor = 1 / (1 / section.shear_factor + STABILITY * slender)
-    plate *= shear_factor * modulus / (2 * (1 + section.poissons_ratio)) * thickness
+    plate *= compute_shear_rigidity(grid, section, section.shear_factor, part)[..., None, None]
     bending = modulus * thickness**3 / 12 * plane
     block = plate.reshape(*plate.shape[:-2], 9, 3, 9, 3)
     block[..., 1:, :, 1:] += bending.reshape(*plane.shape[:-2], 9, 2, 9, 2)
     return modulus * thickness * plane, plate
+
+
+def compute_shear_rigidity(
+    grid: Discretisation,
+    section: Section,
+    shear_factor: float,
+    part: slice | np.ndarray = slice(None),
+) -> np.ndarray:
+    """G t / (1/k + STABILITY h^2 / t^2) of the elements of some facets: (F, 3, m^2) in kN/m."""
+    thickness = section.thickness[part, None, None]
+    slender = grid.quadrature.area[part].sum(axis=-1) / thickness**2
+    factor = 1 / (1 / shear_factor + STABILITY * slender)
+    return factor * section.youngs_modulus / (2 * (1 + section.poissons_ratio)) * thickness
 
 
 def build_system(
@@ -107,14 +141,16 @@ class _Condenser:
     section: Section
     geometric: tuple[np.ndarray, np.ndarray] | None
     fields: list[Substructure] = field(default_factory=list)
-    holding: np.ndarray | None = None
+    holding: Holding | None = None
 
     def condense(self) -> Iterator[np.ndarray]:
         """Yield the skeleton stiffness (72m, 72m) of one facet after the other."""
         grid = self.grid
         held = (grid.equations[:, :, :3] < 0).astype(float)
         count, nodes = held.shape[:2]
-        self.holding = np.zeros((count, 3, 6 * nodes))
+        facets = np.flatnonzero(held.any(axis=(1, 2)))
+        self.holding = Holding(facets, np.zeros((len(facets), nodes, 3, 6 * nodes)))
+        rank = np.cumsum(held.any(axis=(1, 2))) - 1
         chunk = max(1, CHUNK // grid.elements.shape[0] // grid.elements.shape[1])
         for start in range(0, count, chunk):
             part = grid.plan.facets[start : start + chunk]
@@ -132,7 +168,7 @@ class _Condenser:
             total = turn_stiffness(join_fields(*outlines), grid.turn[part])
             for k in np.flatnonzero(held[part].any(axis=(1, 2))):
                 rows = total[k].reshape(nodes, 6, -1)[:, :3]
-                self.holding[part[k]] = np.einsum("nx,nxk->xk", held[part[k]], rows)
+                self.holding.rows[rank[part[k]]] = held[part[k]][:, :, None] * rows
             yield from total
 
 
@@ -158,18 +194,6 @@ def turn_stiffness(local: np.ndarray, turn: np.ndarray) -> np.ndarray:
     half = np.moveaxis(half.reshape(count, nodes, nodes, 5, 6), 2, 1)
     half = np.moveaxis(half, 3, 2).reshape(count, nodes, 5, nodes * 6)
     return (np.swapaxes(turn, -1, -2) @ half).reshape(count, 6 * nodes, 6 * nodes)
-
-
-def assemble_skeleton(matrices: np.ndarray, equations: np.ndarray, size: int) -> csc_matrix:
-    """The same sum as the fronts', as one sparse matrix (for checks with SuperLU).
-
-    matrices (F, k, k) kN/m, equations (F, k) as numbers, -1 for none.
-    """
-    place = equations.reshape(len(equations), -1)
-    rows = np.broadcast_to(place[:, :, None], matrices.shape)
-    columns = np.broadcast_to(place[:, None, :], matrices.shape)
-    keep = (rows >= 0) & (columns >= 0)
-    return coo_matrix((matrices[keep], (rows[keep], columns[keep])), shape=(size, size)).tocsc()
 
 
 def solve_loads(system: System, forces: np.ndarray) -> Response:
@@ -205,10 +229,15 @@ class Solution:
 
 
 def complete_response(system: System, solution: Solution) -> Response:
-    """Global displacements and sum of reactions, which an iteration needs once only."""
+    """Global displacements and reactions, which an iteration needs once only."""
+    state = place_state(system, solution.local)
+    return Response(state.local, state.displacement, _find_reactions(system, solution))
+
+
+def place_state(system: System, local: np.ndarray) -> State:
+    """Local displacements (F, R, 5, c) in m and rad, and the same along the global axes."""
     axes = system.grid.axes
-    displacement = np.einsum("fij,fric->frjc", axes, solution.local[:, :, :3], optimize=True)
-    return Response(solution.local, displacement, _sum_reactions(system, solution))
+    return State(local, np.einsum("fij,fric->frjc", axes, local[:, :, :3], optimize=True))
 
 
 def solve_facets(system: System, local: np.ndarray) -> Solution:
@@ -246,9 +275,15 @@ def _gather(grid: Discretisation, outline: np.ndarray) -> np.ndarray:
     return np.array([np.bincount(place, x, grid.size + 1)[: grid.size] for x in columns]).T
 
 
-def _sum_reactions(system: System, solution: Solution) -> np.ndarray:
-    """Sum over held translations of K u - F: (3, c) in kN."""
-    count, _, _, cases = solution.outline.shape
-    held = system.grid.equations[:, :, :3] < 0
-    inner = system.holding @ solution.outline.reshape(count, -1, cases)
-    return inner.sum(axis=0) - np.einsum("fnxc,fnx->xc", solution.load[:, :, :3], held)
+def _find_reactions(system: System, solution: Solution) -> np.ndarray:
+    """K u - F at the held translations of skeleton nodes: (S, 3, c) in kN."""
+    grid, facets = system.grid, system.holding.facets
+    count, nodes, _, cases = solution.outline[facets].shape
+    own = solution.outline[facets].reshape(count, 1, -1, cases)
+    force = (system.holding.rows.reshape(count, 1, 3 * nodes, -1) @ own)[:, 0]
+    force = force.reshape(count, nodes, 3, cases)
+    held = grid.equations[facets, :, :3] < 0
+    force -= solution.load[facets, :, :3] * held[..., None]
+    total = np.zeros((grid.mesh.skeleton, 3, cases))
+    np.add.at(total, grid.mesh.facet_nodes[facets, :nodes], force)
+    return total

@@ -3,12 +3,16 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 
-from crosscheck.comparison import SECOND_ORDER, Code, build_independent, compare
+from crosscheck.comparison import compare
+from crosscheck.criteria import find_governing, share_shear
 from crosscheck.discretisation import plan_facets
-from crosscheck.errors import MechanismError
+from crosscheck.errors import CrosscheckError, MechanismError
 from crosscheck.model import Model
+from crosscheck.reactions import find_thrusts
 from crosscheck.records import MULTIFRONTAL, Comparison, FirstComparison
-from crosscheck.stability import analyse_mesh
+from crosscheck.shear import TRUE_SHEAR_FACTOR
+from crosscheck.stability import Method, analyse_mesh
+from crosscheck.values import SECOND_ORDER, Code, build_independent
 
 
 def compare_codes(
@@ -16,9 +20,7 @@ def compare_codes(
     primary: Code,
     meshes: Sequence[int],
     tolerance: Mapping[str, float],
-    stability: bool,
-    shear_factor: float,
-    solver: str = MULTIFRONTAL,
+    method: Method,
 ) -> Comparison:
     """The comparison; failed, with the reason, where only this code finds a mechanism.
 
@@ -27,27 +29,41 @@ def compare_codes(
     suffice elsewhere, while what differs for another reason differs on every mesh. The second
     comparison stands; what the first one found is kept under `first`.
     """
-    buckling = stability and "buckling_factor" in primary.names
-    second = stability and any(SECOND_ORDER in name for name in primary.values)
+    buckling = method.buckling and "buckling_factor" in primary.names
+    second = method.second_order and any(SECOND_ORDER in name for name in primary.values)
+    shear = method.shear and method.shear_factor != TRUE_SHEAR_FACTOR
+    method = replace(method, buckling=buckling, second_order=second, shear=shear)
     try:
-        plan = plan_facets(model.vertices, model.facets)
-        how = (shear_factor, buckling, second, plan, solver)
-        runs = [analyse_mesh(model, m, *how) for m in meshes]
-        result = compare(primary, build_independent(meshes, runs), tolerance, solver)
-        if result.passed:
-            return result
-        meshes = [*meshes[1:], meshes[-1] + 1]
-        runs = [*runs[1:], analyse_mesh(model, meshes[-1], *how)]
-        again = compare(primary, build_independent(meshes, runs), tolerance, solver)
-        return replace(again, first=_keep(result))
+        plan, thrusts = plan_facets(model.vertices, model.facets), find_thrusts(model)
+        runs = [analyse_mesh(model, m, method, plan) for m in meshes]
+        how = (tolerance, method.solver, thrusts)
+        result = compare(primary, build_independent(meshes, runs), *how)
+        if not result.passed:
+            kept = _keep(result)
+            meshes = [*meshes[1:], meshes[-1] + 1]
+            runs = [*runs[1:], analyse_mesh(model, meshes[-1], method, plan)]
+            again = compare(primary, build_independent(meshes, runs), *how)
+            result = replace(again, first=kept)
     except MechanismError as error:
-        return leave_out(False, str(error), solver)
+        return leave_out(False, str(error), method.solver)
+    governing = find_governing(primary, model.compared)
+    shares = share_shear(model, primary, governing, meshes, runs)
+    return replace(result, governing=governing, shear=shares)
+
+
+def check_meshes(subdivisions: Sequence[int]) -> list[int]:
+    """The meshes as whole numbers; raises CrosscheckError where they do not increase from 1."""
+    meshes = [int(m) for m in subdivisions]
+    if not meshes or any(m < 1 for m in meshes) or meshes != sorted(set(meshes)):
+        raise CrosscheckError(f"crosscheck.subdivisions: {meshes}: allowed are increasing, from 1")
+    return meshes
 
 
 def _keep(result: Comparison) -> FirstComparison:
     """What is kept of a comparison that a second one replaces."""
-    found = (result.independent_subdivisions, result.quantities, result.not_settled)
-    return FirstComparison(*found)
+    return FirstComparison(
+        result.independent_subdivisions, result.quantities, result.reactions, result.not_settled
+    )
 
 
 def leave_out(passed: bool | None, reason: str, solver: str = MULTIFRONTAL) -> Comparison:
@@ -55,6 +71,7 @@ def leave_out(passed: bool | None, reason: str, solver: str = MULTIFRONTAL) -> C
     return Comparison(
         passed=passed,
         quantities={},
+        reactions={},
         not_compared=[],
         not_settled=[],
         primary_subdivisions=[],

@@ -9,7 +9,8 @@ from xlsxwriter.format import Format
 from xlsxwriter.worksheet import Worksheet
 
 from crosscheck.reading import write_whole
-from crosscheck.records import Comparison, Limit
+from crosscheck.records import Comparison, Limit, ShearShare
+from crosscheck.values import SECOND_ORDER
 
 CREATED = datetime(2020, 1, 1)  # the same values give the same bytes
 COLUMNS = {
@@ -35,6 +36,28 @@ MESH_COLUMNS = {
     "off the limit": "%",
     "order": "-",
 }
+REACTION_COLUMNS = {
+    "combination": "",
+    "support": "",
+    "component": "",
+    "primary": "kN",
+    "independent": "kN",
+    "difference": "% of largest",
+    "tolerance": "%",
+    "result": "",
+}
+SHEAR_COLUMNS = {
+    "criterion": "",
+    "combination": "",
+    "shear adds": "%",
+    "on the coarse mesh": "%",
+    "on the fine mesh": "%",
+    "value": "m or -",
+    "limit": "m or -",
+    "with shear": "m or -",
+    "and mesh error": "m or -",
+    "verdict": "",
+}
 LABELS = {
     "displacement_down_max_m": "largest downward displacement",
     "displacement_max_m": "largest displacement",
@@ -56,12 +79,16 @@ NUMERIC = {
 
 
 def write_comparison(path: str | Path, design: str, comparison: Comparison) -> None:
-    """Write sheets `comparison` and `meshes`; rows of failed quantities are red."""
+    """Write sheets `comparison`, `meshes`, `reactions` and `shear`; what fails or turns is red."""
     with write_whole(path) as temporary, Workbook(str(temporary)) as book:
         book.set_properties({"title": f"Cross-check of {design}", "created": CREATED})
         style = _build_styles(book)
         _write_comparison(book.add_worksheet("comparison"), design, comparison, style)
         _write_meshes(book.add_worksheet("meshes"), design, comparison, style)
+        if comparison.reactions:
+            _write_reactions(book.add_worksheet("reactions"), design, comparison, style)
+        if comparison.shear:
+            _write_shear(book.add_worksheet("shear"), design, comparison, style)
 
 
 def _build_styles(book: Workbook) -> dict[str, Format]:
@@ -153,6 +180,11 @@ def _describe_first(comparison: Comparison) -> str:
         for key, entry in first.quantities.items()
         if not entry.passed
     ]
+    failed += [
+        f"{key} {100 * entry.relative_difference:.3g} %"
+        for key, entry in first.reactions.items()
+        if not entry.passed
+    ]
     failed += [f"{key} not settled" for key in first.not_settled]
     return (
         f"second comparison, on meshes {now} of the independent code; "
@@ -179,3 +211,56 @@ def _write_meshes(sheet: Worksheet, design: str, comparison: Comparison, style: 
                     row, 7, [100 * error, "-" if order is None else order], style["percent"]
                 )
                 row += 1
+
+
+def _write_reactions(sheet: Worksheet, design: str, comparison: Comparison, style: dict) -> None:
+    """Force along x, y, z and thrust of each support by both codes; one result a support."""
+    title = f"{design}: reactions of each support, extrapolated"
+    _start_sheet(sheet, title, REACTION_COLUMNS, (12, 18, 11, 13, 13, 12, 11, 9), style)
+    row = 3
+    for key, entry in comparison.reactions.items():
+        combination, support = _split_support(key)
+        end = "" if entry.passed else "_failed"
+        first = [*entry.primary_kn, entry.primary_thrust_kn]
+        second = [*entry.independent_kn, entry.independent_thrust_kn]
+        rows = zip(("x", "y", "z", "thrust"), first, second, strict=True)
+        for number, (component, one, other) in enumerate(rows):
+            sheet.write_row(row, 0, [combination, support, component], style["text" + end])
+            sheet.write_row(row, 3, [one, other], style["number" + end])
+            if number == 0:
+                percent = [100 * entry.relative_difference, 100 * entry.tolerance]
+                sheet.write_row(row, 5, percent, style["percent" + end])
+                word = "passed" if entry.passed else "failed"
+                sheet.write(row, 7, word, style["result" + end])
+            row += 1
+
+
+def _split_support(key: str) -> tuple[str, str]:
+    """Combination and support of a key such as `S2 Th.II zigzag first`."""
+    combination, _, support = key.partition(" ")
+    if support.startswith(f"{SECOND_ORDER} "):
+        return f"{combination} {SECOND_ORDER}", support.removeprefix(f"{SECOND_ORDER} ")
+    return combination, support
+
+
+def _write_shear(sheet: Worksheet, design: str, comparison: Comparison, style: dict) -> None:
+    """What shear deformation adds to each limited value, and whether the verdict turns."""
+    title = f"{design}: what shear deformation adds, by the independent code"
+    _start_sheet(sheet, title, SHEAR_COLUMNS, (34, 12, 10, 11, 11, 11, 11, 11, 11, 40), style)
+    for row, (name, entry) in enumerate(comparison.shear.items(), 3):
+        end = "_failed" if entry.turns or entry.turns_refined else ""
+        sheet.write_row(row, 0, [LABELS[name], entry.combination], style["text" + end])
+        shares = [entry.share, entry.share_meshes[0], entry.share_meshes[-1]]
+        sheet.write_row(row, 2, [100 * share for share in shares], style["percent" + end])
+        values = [entry.value, entry.limit, entry.with_shear, entry.refined_with_shear]
+        sheet.write_row(row, 5, values, style["number" + end])
+        sheet.write(row, 9, _say_shear(entry), style["text" + end])
+
+
+def _say_shear(entry: ShearShare) -> str:
+    """Whether the verdict turns with shear deformation, alone or with mesh error."""
+    if entry.turns:
+        return "turns with shear deformation"
+    if entry.turns_refined:
+        return "turns with shear and mesh error together"
+    return "stays"

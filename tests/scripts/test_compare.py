@@ -13,9 +13,8 @@ import pytest
 from crosscheck import verdict
 from crosscheck.errors import CrosscheckError, MechanismError
 from crosscheck.model import read_model
-from crosscheck.stability import analyse_mesh
-from crosscheck.system import SHEAR_FACTOR
-from crosscheck_models import describe_small_fold, write_model
+from crosscheck.stability import FIRST_ORDER, Method, analyse_mesh
+from crosscheck_models import describe_primary, describe_small_fold, write_model
 
 SCRIPT = Path(__file__).parents[2] / "scripts" / "compare.py"
 
@@ -34,11 +33,8 @@ def primary_values(tmp_path_factory):
 def compute_primary(folder, data):
     """Plain data as the primary code writes it, second-order values within their combination."""
     model = read_model(write_model(folder / "model.json", data))
-    runs = [analyse_mesh(model, m, SHEAR_FACTOR, True, True) for m in (3, 4)]
-    values = {c: {name: [run[c][name] for run in runs] for name in runs[0][c]} for c in runs[0]}
-    for c in ("S2", "D2"):
-        values[c]["second_order"] = values.pop(f"{c} Th.II")
-    return {"subdivisions": [3, 4], "order": 3.0, "combinations": values}
+    runs = [analyse_mesh(model, m, Method()) for m in (3, 4)]
+    return describe_primary(runs, [3, 4])
 
 
 def write_inputs(folder, primary, model=None):
@@ -77,7 +73,7 @@ def test_codes_that_differ_are_compared_on_a_finer_mesh(main, tmp_path, primary_
     """On one element a block the work is off by more than the tolerance, on two by less."""
     paths = write_inputs(tmp_path, primary_values)
     model = read_model(paths[0])
-    found = [analyse_mesh(model, m, SHEAR_FACTOR, False, False)["S2"]["work_knm"] for m in (1, 2)]
+    found = [analyse_mesh(model, m, FIRST_ORDER)["S2"]["work_knm"] for m in (1, 2)]
     main(*paths, subdivisions=[1, 3])
     settled = json.loads(paths[2].read_text())
     assert settled["independent_subdivisions"] == [1, 3]

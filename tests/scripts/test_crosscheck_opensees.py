@@ -13,7 +13,7 @@ from crosscheck.errors import CrosscheckError
 from crosscheck.loads import combine_cases, compute_surface_loads
 from crosscheck.model import read_model
 from crosscheck.opensees import divide_facets
-from crosscheck_models import describe_small_fold, write_model
+from crosscheck_models import describe_primary, describe_small_fold, write_model
 
 
 @pytest.fixture
@@ -68,8 +68,7 @@ def test_opensees_agrees_on_a_small_roof(tmp_path, model):
     """
     pytest.importorskip("openseespy.opensees", exc_type=ImportError)
     runs = [list_values(analyse_model(model, m)) for m in (2, 3)]
-    values = {c: {k: [run[c][k] for run in runs] for k in runs[0][c]} for c in runs[0]}
-    primary = {"subdivisions": [2, 3], "order": 3.0, "combinations": values}
+    primary = describe_primary(runs, [2, 3])
     (tmp_path / "primary.json").write_text(json.dumps(primary))
     table = tmp_path / "table.csv"
     crosscheck_opensees.main(

@@ -21,7 +21,7 @@ from crosscheck import second_order as independent_stability
 from crosscheck import verdict
 from crosscheck.model import read_model
 from crosscheck.primary import read_primary
-from crosscheck.system import SHEAR_FACTOR
+from crosscheck.stability import Method
 from crosscheck_models import DATA, write_model
 from foldshell.exchange.neutral_model import make_neutral_model
 from foldshell.loads.cases import make_load_cases
@@ -37,6 +37,7 @@ from foldshell.shell.mesh import edge_polyline_nodes
 from foldshell.shell.mesh_files import mesh_folded_sheet, mesh_from_arrays
 
 SETTINGS = stage_parameters(make_settings({}), "crosscheck")
+SETTINGS["crosscheck"] |= {"strength": "S2", "deflection": "D2"}
 LINES = 5
 
 
@@ -73,14 +74,13 @@ def folded_corner():
 
 def mesh_corner(inputs, subdivisions=4, **options):
     arrays = mesh_folded_sheet(dict(folded_corner()), "zigzag", subdivisions, **options)
-    pairs = arrays["support_pairs"][inputs.dropped :]
-    held = edge_polyline_nodes(mesh_from_arrays(arrays), pairs)
-    return arrays | {"support_pairs": pairs, "supported_nodes": held}
+    kept = {key: arrays[key][inputs.dropped :] for key in ("support_pairs", "support_border")}
+    held = edge_polyline_nodes(mesh_from_arrays(arrays), kept["support_pairs"])
+    return arrays | kept | {"supported_nodes": held}
 
 
 def choose_combinations(settings):
-    groups = settings["combinations"]
-    compared = settings["crosscheck"]
+    groups, compared = settings["combinations"], settings["crosscheck"]
     return {compared[k]: groups[k][compared[k]] for k in ("strength", "deflection")}
 
 
@@ -117,12 +117,13 @@ def run_primary(inputs, folder, monkeypatch):
 def compare_codes(primary, inputs, folder, monkeypatch, stability=True):
     """The comparison, as rules `neutral_model` and `crosscheck` make it."""
     given = read_stage(inputs.settings, *STAGES["crosscheck"])
-    description = make_neutral_model("slip", mesh_corner(inputs), inputs.thickness, given)
+    names = choose_combinations(SETTINGS)
+    compared = {kind: [name] for kind, name in zip(("strength", "deflection"), names, strict=True)}
+    what = (mesh_corner(inputs), inputs.thickness, given, compared, {})
+    description = make_neutral_model("slip", *what)
     # a wrong combination under the right name
     chosen = choose_combinations(inputs.settings).values()
-    names = choose_combinations(SETTINGS)
     description["combinations"] |= dict(zip(names, chosen, strict=True))
-    description["compare"] = dict(zip(("strength", "deflection"), names, strict=True))
     model = read_model(write_model(folder / "model.json", description))
 
     def load_surface(model, normal):
@@ -137,7 +138,8 @@ def compare_codes(primary, inputs, folder, monkeypatch, stability=True):
             name = "compute_membrane_forces"
             scale_result(patch, independent_stability, name, inputs.membrane)
         chosen = SETTINGS["crosscheck"]
-        how = (chosen["subdivisions"], chosen["tolerance"], stability, SHEAR_FACTOR)
+        method = Method(buckling=stability, second_order=stability)
+        how = (chosen["subdivisions"], chosen["tolerance"], method)
         return verdict.compare_codes(model, primary, *how)
 
 

@@ -58,6 +58,7 @@ def write_results(folder, designs=("a", "b"), **changed):
         write_json(home / "sizing/final.json", final_of())
         write_json(home / "crosscheck/comparison.json", {
             "design": name, "pass": True, "not_compared": [], "not_settled": [],
+            "reactions": {}, "governing": {}, "shear": {},
             "quantities": {"D1 displacement_max_m": quantity}, "solver": "scipy",
             "primary_subdivisions": [4, 12], "independent_subdivisions": [1, 2]})  # fmt: skip
         write_json(home / "mesh_convergence.json", {

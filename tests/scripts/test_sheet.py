@@ -20,6 +20,7 @@ from scripts.test_report import final_of, write_results
 EVIL = '</style><img src=x onerror="1">#panic("typst")'
 REACTIONS = {
     "design": "case", "pass": True, "not_compared": [], "not_settled": [], "solver": "scipy",
+    "reactions": {}, "governing": {}, "shear": {},
     "primary_subdivisions": [4, 12], "independent_subdivisions": [1, 2],
     "quantities": {"D1 work_knm": {"primary": 1.0, "independent": 1.01, "tolerance": 0.04,
                                    "relative_difference": 0.01, "pass": True, "unit": "kNm"}},

@@ -6,7 +6,7 @@ import pytest
 from crosscheck.analysis import analyse_model, list_values
 from crosscheck.extrapolation import ORDER, extrapolate
 from crosscheck.model import read_model
-from crosscheck.stability import analyse_mesh
+from crosscheck.stability import Method, analyse_mesh
 from crosscheck.system import SHEAR_FACTOR
 from crosscheck_models import SIX_CASES, describe_folded_case, write_model
 
@@ -56,7 +56,7 @@ def test_buckling_and_second_order_settle(tmp_path):
     """
     data = describe_folded_case("arch", "strip", 0.05)
     model = read_model(write_model(tmp_path / "model.json", data))
-    runs = [analyse_mesh(model, m, SHEAR_FACTOR, True, True) for m in (1, 2, 3)]
+    runs = [analyse_mesh(model, m, Method()) for m in (1, 2, 3)]
     factor = [run["S2"]["buckling_factor"] for run in runs]
     coarse, fine = extrapolate([1, 2], factor[:2], ORDER), extrapolate([2, 3], factor[1:], ORDER)
     assert coarse == pytest.approx(fine, rel=0.04)

@@ -17,7 +17,6 @@ from foldshell.records.iteration import read_iteration
 from foldshell.records.measures import Geometry, VariantRecord
 from foldshell.records.mesh_convergence import MeshConvergenceRecord
 from foldshell.records.quality import QualityRecord
-from foldshell.settings.crosscheck import Crosscheck
 from foldshell.settings.stage import StageSettings
 
 Errors = dict[str, tuple[float | None, float | None]]
@@ -55,7 +54,7 @@ def read_design_result(
         read_iteration(folder / f"sizing/{name}.json") for name in ("final", "00/analysis")
     )
     how = settings.combinations, settings.sizing.measure
-    errors = read_errors(folder, settings.crosscheck)
+    errors = read_errors(folder)
     measured = [measure_state(mesh, make_layout(row), *state, *how) for state in (last, first)]
     final, start = (
         replace(fold, values=replace(measures, **vars(fold.values)), errors=errors)
@@ -75,25 +74,31 @@ def read_variant(design_result: DesignResult, path: str | Path) -> DesignResult:
     return replace(design_result, values=replace(measures, **geometry))
 
 
-def read_errors(folder: Path, chosen: Crosscheck) -> Errors:
-    """Read relative mesh error and cross-check difference of the compared combinations."""
-    errors = read_record(folder / "mesh_convergence.json", MeshConvergenceRecord).errors
-    compared = read_comparison(folder / "crosscheck/comparison.json").quantities
-    strength, deflection = chosen.strength, chosen.deflection
+def read_errors(folder: Path) -> Errors:
+    """Read relative mesh error and cross-check difference of the combinations that govern.
 
-    def pick(combination: str, quantity: str) -> tuple[float | None, float | None]:
+    They are those of the comparison that govern displacement, utilization and buckling; without a
+    comparison the largest mesh error stands.
+    """
+    errors = read_record(folder / "mesh_convergence.json", MeshConvergenceRecord).errors
+    comparison = read_comparison(folder / "crosscheck/comparison.json")
+
+    def pick(criterion: str, quantity: str) -> tuple[float | None, float | None]:
         """Return relative mesh error and cross-check difference of one quantity."""
+        combination = (comparison.governing or {}).get(criterion)
         names = f"{combination} Th.II {quantity}", f"{combination} {quantity}"
+        compared = comparison.quantities
         found = next((compared[name] for name in names if name in compared), None)
-        error = errors.get(combination, {}).get(quantity)
+        own = [one for name, one in errors.items() if combination in (None, name)]
+        error = max((one[quantity] for one in own if quantity in one), default=None)
         if error is None and found:
             error = _relative(found.primary_meshes[0], found.primary)
         return error, found and found.relative_difference
 
     return {
-        "displacement": pick(deflection, "displacement_down_max_m"),
-        "utilization": pick(strength, "utilization_panel_mean_max"),
-        "buckling": pick(strength, "buckling_factor"),
+        "displacement": pick("displacement", "displacement_down_max_m"),
+        "utilization": pick("utilization", "utilization_panel_mean_max"),
+        "buckling": pick("buckling", "buckling_factor"),
     }
 
 

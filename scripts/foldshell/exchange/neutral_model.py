@@ -1,16 +1,18 @@
 """The neutral model: everything another FE program needs, in words and plain numbers."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
 from foldshell.files.whole import Json
+from foldshell.settings.loads import Loads
+from foldshell.settings.material import Material
 from foldshell.settings.stage import StageSettings
+from foldshell.shell.supports import BORDERS
 
-FORMAT = "foldshell-neutral-model 1"
-
-EDGE_BEAM_FORMAT = "foldshell-neutral-model 2"
-"""Format 1, and `self_weight_only_panels`: who does not know those must not read such a file."""
+FORMAT = "foldshell-neutral-model 3"
+"""Format 2 (`self_weight_only_panels`) with named supports, lists of combinations that are
+compared, and limits: who does not know those must not read such a file."""
 
 
 def make_neutral_model(
@@ -18,6 +20,8 @@ def make_neutral_model(
     mesh: Mapping[str, np.ndarray],
     panel_thickness: np.ndarray,
     settings: StageSettings,
+    compared: Mapping[str, Sequence[str]],
+    limits: Mapping[str, float],
 ) -> Json:
     """Return the neutral model as plain data in kN, m and kPa.
 
@@ -32,37 +36,54 @@ def make_neutral_model(
     mesh : arrays of mesh.npz
     panel_thickness : (P,) m, of the sized panels
     settings : those of the stage `crosscheck`
+    compared : names of combinations under "strength" and "deflection"
+    limits : what the criteria allow of quantities of primary.json
     """
-    material, loads = settings.material, settings.loads
-    compare = settings.crosscheck
     fixed = mesh.get("fixed_thickness", np.empty(0))
     sized = len(panel_thickness)
     edge_beam_panels = list(range(sized, sized + len(fixed)))
     return {
-        "format": EDGE_BEAM_FORMAT if len(fixed) else FORMAT,
+        "format": FORMAT,
         "design": design,
         "vertices_m": mesh["vertices"].tolist(),
         "facets": mesh["facets"].tolist(),
         "facet_panel": mesh["facet_panel"].tolist(),
         "panel_thickness_m": [*panel_thickness.tolist(), *fixed.tolist()],
         **({"self_weight_only_panels": edge_beam_panels} if edge_beam_panels else {}),
-        "supported_edges": mesh["support_pairs"].tolist(),
-        "material": {
-            "youngs_modulus_kpa": material.youngs_modulus,
-            "poissons_ratio": material.poissons_ratio,
-            "unit_weight_kn_m3": material.unit_weight,
-            "strength_kpa": material.strength,
-            "strength_tension_kpa": material.strength_tension,
-            "criterion": material.criterion,
-        },
-        "loads_kn_m2": {
-            "SDL": loads.superimposed_dead,
-            "LL": loads.live,
-            "W": loads.wind,
-            "wind_fraction": loads.wind_fraction,
-            "dead_side": "sheet",
-        },
-        "area_basis": loads.area_basis,
+        "supports": _list_supports(mesh["support_pairs"], mesh["support_border"]),
+        "material": _describe_material(settings.material),
+        "loads_kn_m2": _describe_loads(settings.loads),
+        "area_basis": settings.loads.area_basis,
         "combinations": settings.combinations.all,
-        "compare": {"strength": compare.strength, "deflection": compare.deflection},
+        "compare": {kind: list(names) for kind, names in compared.items()},
+        "limits": dict(limits),
+    }
+
+
+def _list_supports(pairs: np.ndarray, border: np.ndarray) -> list[Json]:
+    """Name the supported edges (K, 2) of each border (K,)."""
+    return [
+        {"name": BORDERS[number], "edges": pairs[border == number].tolist()}
+        for number in np.unique(border)
+    ]
+
+
+def _describe_material(material: Material) -> Json:
+    return {
+        "youngs_modulus_kpa": material.youngs_modulus,
+        "poissons_ratio": material.poissons_ratio,
+        "unit_weight_kn_m3": material.unit_weight,
+        "strength_kpa": material.strength,
+        "strength_tension_kpa": material.strength_tension,
+        "criterion": material.criterion,
+    }
+
+
+def _describe_loads(loads: Loads) -> Json:
+    return {
+        "SDL": loads.superimposed_dead,
+        "LL": loads.live,
+        "W": loads.wind,
+        "wind_fraction": loads.wind_fraction,
+        "dead_side": "sheet",
     }

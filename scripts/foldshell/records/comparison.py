@@ -6,6 +6,8 @@ from pathlib import Path
 from foldshell.records.entry import COUNT, entry
 from foldshell.records.files import read_record
 
+Force = tuple[float, float, float]
+
 
 @dataclass(frozen=True, kw_only=True)
 class ComparedQuantity:
@@ -42,11 +44,46 @@ class ComparedQuantity:
 
 
 @dataclass(frozen=True, kw_only=True)
+class SupportReaction:
+    """The reaction of one supported edge in one combination, extrapolated by each code."""
+
+    primary_kn: Force = entry("of the primary code along x, y, z", "kN")
+    independent_kn: Force = entry("of the independent code along x, y, z", "kN")
+    primary_thrust_kn: float = entry(
+        "horizontal part at right angles to the edge, inward positive, primary code", "kN"
+    )
+    independent_thrust_kn: float = entry("the same by the independent code", "kN")
+    relative_difference: float = entry(
+        "length of the difference of forces over the largest force on any edge", "-"
+    )
+    tolerance: float = entry("largest relative difference allowed", "-")
+    passed: bool = entry("whether the difference is within the tolerance", key="pass")
+
+
+@dataclass(frozen=True, kw_only=True)
+class ShearShare:
+    """What shear deformation adds to a value that a criterion limits, by the independent code."""
+
+    combination: str = entry("the combination that governs the criterion")
+    share: float = entry("relative increase of the value, of first order", "-")
+    share_meshes: tuple[float, ...] = entry("the same on each mesh, coarse to fine", "-")
+    value: float = entry("value of the primary code on the mesh in use, m or -")
+    limit: float = entry("what the criterion allows, m or -")
+    with_shear: float = entry("value times (1 + share), m or -")
+    refined_with_shear: float = entry("extrapolated value times (1 + share), m or -")
+    turns: bool = entry("whether shear alone turns the verdict")
+    turns_refined: bool = entry("whether shear and mesh error together turn it")
+
+
+@dataclass(frozen=True, kw_only=True)
 class FirstComparison:
     """What a comparison found before the meshes were refined."""
 
     independent_subdivisions: tuple[int, ...] = entry("elements along a block side", COUNT)
     quantities: dict[str, ComparedQuantity] = entry("quantities by combination and key")
+    reactions: dict[str, SupportReaction] | None = entry(
+        "reactions by combination and supported edge", left_out=True
+    )
     not_settled: tuple[str, ...] = entry("quantities whose iteration ended before it settled")
 
 
@@ -61,6 +98,15 @@ class ComparisonRecord:
     )
     reason: str | None = entry("why there is nothing to compare", left_out=True)
     quantities: dict[str, ComparedQuantity] = entry("quantities by combination and key")
+    reactions: dict[str, SupportReaction] | None = entry(
+        "reactions by combination and supported edge", left_out=True
+    )
+    governing: dict[str, str] | None = entry(
+        "compared combination that governs displacement, utilization and buckling", left_out=True
+    )
+    shear: dict[str, ShearShare] | None = entry(
+        "share of shear deformation by the limited quantity", left_out=True
+    )
     not_compared: tuple[str, ...] = entry("what only one code gives")
     not_settled: tuple[str, ...] = entry("quantities whose iteration ended before it settled")
     primary_subdivisions: tuple[float, ...] = entry(

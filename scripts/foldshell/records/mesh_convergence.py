@@ -27,6 +27,9 @@ class MeshQuantities:
     utilization_p99: Pair = entry(f"utilization that 99 % of the area keeps, {BOTH}", "-")
     utilization_panel_mean_max: Pair = entry(f"largest mean utilization of a panel, {BOTH}", "-")
     reaction_sum_kn: Vectors = entry(f"sum of the reactions, {BOTH}", "kN")
+    support_reactions_kn: dict[str, Vectors] = entry(
+        f"reactions of each supported edge, {BOTH}", "kN"
+    )
     load_sum_kn: Vectors = entry(f"sum of the loads, {BOTH}", "kN")
 
 

@@ -9,6 +9,7 @@ from foldshell.checks.utilization import area_percentile, compute_utilization, p
 from foldshell.loads.cases import SurfaceLoad
 from foldshell.records.mesh_convergence import (
     CombinationStudy,
+    MeshConvergenceRecord,
     MeshQuantities,
     MeshStudy,
     ReferenceMesh,
@@ -20,6 +21,7 @@ from foldshell.shell.analysis import analyse_shell, build_model
 from foldshell.shell.edge_beams import EdgeBeam
 from foldshell.shell.mesh_files import mesh_folded_sheet, mesh_from_arrays
 from foldshell.shell.results import largest_downward, support_reactions, translations
+from foldshell.shell.supports import share_supported_nodes
 
 REFERENCE = ReferenceMesh(order=7)
 """What the mesh that gives the limit changes in the mesh in use: the element order. On the thin
@@ -56,6 +58,8 @@ QUANTITIES = (
 )
 
 
+SUPPORTS = "support_reactions_kn"
+"""Reactions by supported edge."""
 FACTOR = "buckling_factor"
 """Its mesh error is reported apart: modes inside slender panels settle later than all else."""
 
@@ -145,6 +149,7 @@ class _OnMesh:
     utilization_p99: float
     utilization_panel_mean_max: float
     reaction_sum_kn: tuple[float, ...]
+    support_reactions_kn: dict[str, tuple[float, ...]]
     load_sum_kn: tuple[float, ...]
     buckling_factor: float | None = None
     second_order: "_OnMesh | None" = None
@@ -162,8 +167,23 @@ def _pair(coarse: _OnMesh, fine: _OnMesh) -> CombinationStudy:
 
 
 def _pair_quantities(coarse: _OnMesh, fine: _OnMesh) -> dict[str, tuple]:
-    names = [one.name for one in fields(MeshQuantities)]
-    return {name: (getattr(coarse, name), getattr(fine, name)) for name in names}
+    names = [one.name for one in fields(MeshQuantities) if one.name != SUPPORTS]
+    edges = (coarse.support_reactions_kn, fine.support_reactions_kn)
+    shared = {name: tuple(values[name] for values in edges) for name in edges[0]}
+    return {name: (getattr(coarse, name), getattr(fine, name)) for name in names} | {
+        SUPPORTS: shared
+    }
+
+
+def make_record(study: MeshStudy) -> MeshConvergenceRecord:
+    """Return the contents of mesh_convergence.json."""
+    errors = estimate_errors(study)
+    return MeshConvergenceRecord(
+        **find_largest_errors(errors),
+        subdivisions=study.subdivisions[0],
+        errors=errors,
+        study=study,
+    )
 
 
 def estimate_errors(study: MeshStudy) -> dict[str, dict[str, float]]:
@@ -200,25 +220,30 @@ def _analyse(mesh, folded, support, edge_beam, panel_thickness, material, cases,
     model = build_model(
         mesh_from_arrays(arrays), held, material.poissons_ratio, fixed_thickness=fixed
     )
+    shares = share_supported_nodes(
+        model.mesh, arrays["support_pairs"], arrays["support_border"], held
+    )
     thickness = model.to_elements(panel_thickness)
     result = analyse_shell(model, thickness, material, cases, combinations)
     if result.state == "mechanism":
         raise MechanismError(result.reason)
     first = replace(result, displacement=result.first_order, second_order=None)
-    values = _measure(model, first, thickness, material)
+    values = _measure(model, first, thickness, material, shares)
     for column, name in enumerate(result.names):
         factor = float(result.buckling.factors[column]) if result.buckling else 0.0
         values[name] = replace(values[name], buckling_factor=min(factor, LARGEST_FACTOR))
     if result.state == "ok":
-        for name, second in _measure(model, result, thickness, material).items():
+        for name, second in _measure(model, result, thickness, material, shares).items():
             values[name] = replace(values[name], second_order=second)
     return values
 
 
-def _measure(model, result, thickness, material) -> dict[str, _OnMesh]:
+def _measure(model, result, thickness, material, shares) -> dict[str, _OnMesh]:
     """Return the quantities of each combination of a result."""
     used = compute_utilization(model, result.displacement, thickness, material).combination
-    reactions = support_reactions(model, result, thickness, material).sum(axis=0)
+    reactions = support_reactions(model, result, thickness, material)
+    edges = {name: np.tensordot(share, reactions, 1) for name, share in shares.items()}
+    total = reactions.sum(axis=0)
     load = translations(model, result.loads).sum(axis=0)
     moved = translations(model, result.displacement)
     work = (result.displacement * result.loads).sum(axis=0)
@@ -233,7 +258,10 @@ def _measure(model, result, thickness, material) -> dict[str, _OnMesh]:
             utilization_panel_mean_max=float(
                 panel_utilization(model, used[column].mean(axis=2), "panel_mean").max()
             ),
-            reaction_sum_kn=tuple(reactions[:, column].tolist()),
+            reaction_sum_kn=tuple(total[:, column].tolist()),
+            support_reactions_kn={
+                name: tuple(force[:, column].tolist()) for name, force in edges.items()
+            },
             load_sum_kn=tuple(load[:, column].tolist()),
         )
         for column, name in enumerate(result.names)

@@ -11,6 +11,7 @@ from foldshell.settings.stage import StageSettings
 from foldshell.shell.analysis import AnalysisResult, ShellModel
 from foldshell.shell.nodal_loads import nodal_forces
 from foldshell.shell.results import support_reactions
+from foldshell.shell.supports import share_supported_nodes
 
 
 @dataclass(frozen=True)
@@ -32,7 +33,7 @@ class Reactions:
     combinations : names, c of them
     node : (S,) supported nodes of the shell mesh
     force : (S, 3, c) kN, what the supports exert on the shell
-    edges : resultants by supported edge; a node on a corner counts with the edge named first
+    edges : resultants by supported edge; a node on a corner counts by half for each
     cases : load cases, and `resultant` (3, cases) kN, the sum of each over the shell
     """
 
@@ -88,30 +89,10 @@ def _sum_edges(
     state: DesignState, node: np.ndarray, force: np.ndarray
 ) -> tuple[SupportedEdge, ...]:
     """Return the resultants by supported border polyline, zig-zags first."""
-    edges, left = [], np.ones(len(node), dtype=bool)
+    pairs, border = (state.shell[name] for name in ("support_pairs", "support_border"))
+    shares = share_supported_nodes(state.mesh, pairs, border, node)
     places = state.mesh.nodes[node]
-    for kind, words in (("zigzag", "zig-zag edge"), ("strip", "strip edge")):
-        index = state.folded[kind]
-        for border, number in ((index.min(), "first"), (index.max(), "last")):
-            held = state.shell["support_pairs"]
-            pairs = held[(held < len(index)).all(axis=1)]
-            pairs = pairs[(index[pairs] == border).all(axis=1)]
-            mine = left & _on_lines(places, state.shell["vertices"][pairs])
-            if mine.any():
-                left &= ~mine
-                edges.append(SupportedEdge(f"{number} {words}", places[mine].mean(axis=0),
-                                           force[mine].sum(axis=0)))  # fmt: skip
-    if left.any():
-        edges.append(SupportedEdge("other supports", places[left].mean(axis=0),
-                                   force[left].sum(axis=0)))  # fmt: skip
-    return tuple(edges)
-
-
-def _on_lines(points: np.ndarray, lines: np.ndarray) -> np.ndarray:
-    """Tell which points (S, 3) lie on one of the segments (K, 2, 3), m: (S,) bool."""
-    start, along = lines[:, 0], lines[:, 1] - lines[:, 0]
-    length = np.maximum(np.einsum("kx,kx->k", along, along), 1e-300)
-    away = points[:, None] - start
-    share = np.clip(np.einsum("skx,kx->sk", away, along) / length, 0, 1)
-    gap = np.linalg.norm(away - share[:, :, None] * along, axis=2)
-    return (gap < 1e-6 * np.sqrt(length)).any(axis=1)
+    return tuple(
+        SupportedEdge(name, places[share > 0].mean(axis=0), np.tensordot(share, force, 1))
+        for name, share in shares.items()
+    )

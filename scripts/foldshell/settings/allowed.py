@@ -16,6 +16,8 @@ def describe_allowed(known: Setting) -> str:
     """Say in words what a setting allows, with its unit."""
     if known.kind == Factors:
         return f"names with factors of {', '.join(known.choices)}"
+    if known.kind == tuple[str, ...] and not known.choices:
+        return "a name or a list of names"
     if known.kind == tuple[str, ...]:
         return f"a list of names out of {', '.join(known.choices)}"
     if known.choices:

@@ -95,6 +95,8 @@ class Reader:
         return [self.read_value(item, v, f"{place}[{i}]") for i, v in enumerate(value)]
 
     def _read_words(self, known: Setting, value: Any, place: str) -> list[str]:
+        if isinstance(value, str) and not known.choices:
+            return [self.read_value(replace(known, kind=str), value, place)]
         if (
             not isinstance(value, list | tuple)
             or not value

@@ -1,7 +1,7 @@
 """Checks of settings against each other, which no single one can state."""
 
 from foldshell.files.errors import InputError
-from foldshell.settings.crosscheck import Crosscheck
+from foldshell.settings.crosscheck import GOVERNING, Crosscheck
 from foldshell.settings.design import Design
 from foldshell.settings.loads import Combinations, Loads
 from foldshell.settings.nearest import hint_nearest
@@ -88,12 +88,13 @@ def _check_loading(combinations: Combinations, loads: Loads, source: str) -> Non
 def check_crosscheck(crosscheck: Crosscheck, combinations: Combinations, source: str) -> None:
     """Check that the compared combinations exist and that each code has two rising meshes."""
     for key in ("strength", "deflection"):
-        name = getattr(crosscheck, key)
-        known = list(getattr(combinations, key))
-        if name not in known:
+        names, known = getattr(crosscheck, key), list(getattr(combinations, key))
+        wrong = [name for name in names if name not in known]
+        if wrong and names != (GOVERNING,):
             raise InputError(
-                f"{source}: crosscheck.{key}: {name!r}: a combination under combinations.{key} "
-                f"is allowed ({', '.join(known)})" + hint_nearest(name, known)
+                f"{source}: crosscheck.{key}: {wrong[0]!r}: {GOVERNING} alone or combinations "
+                f"under combinations.{key} are allowed ({', '.join(known)})"
+                + hint_nearest(wrong[0], known)
             )
     coarse, fine = crosscheck.subdivisions
     if coarse >= fine:

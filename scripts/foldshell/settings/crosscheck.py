@@ -2,6 +2,9 @@
 
 from foldshell.settings.field import Group, setting, settings_group
 
+GOVERNING = "governing"
+"""In place of the names of combinations: those that govern a criterion of the final state."""
+
 
 @settings_group
 class Tolerance(Group):
@@ -28,8 +31,16 @@ class Crosscheck(Group):
         meaning="Two meshes of the independent code, coarse then fine, to extrapolate from; codes "
         "that differ are compared once more, one mesh finer.",
     )  # fmt: skip
-    strength: str = setting("S2", meaning="Strength combination that is compared.")
-    deflection: str = setting("D2", meaning="Deflection combination that is compared.")
+    strength: tuple[str, ...] = setting(
+        GOVERNING,
+        meaning="Strength combinations that are compared: names, or `governing` for those of the "
+        "largest panel mean of utilization and of the least buckling factor.",
+    )
+    deflection: tuple[str, ...] = setting(
+        GOVERNING,
+        meaning="Deflection combinations that are compared: names, or `governing` for that of the "
+        "largest displacement.",
+    )
     solver: str = setting(
         "multifrontal", choices=("multifrontal", "scipy"),
         meaning="Solver of the independent code; scipy is the plain path, slower, for audits.",

@@ -73,7 +73,7 @@ class Setting:
         if self.kind == tuple[int, int]:
             return tuple(int(item) for item in value)
         if self.kind == tuple[str, ...]:
-            return tuple(value)
+            return (value,) if isinstance(value, str) else tuple(value)
         if self.kind == Factors:
             return {name: dict(factors) for name, factors in value.items()}
         return value

@@ -69,8 +69,10 @@ def _describe_setting(known: Setting) -> Plain:
         items = {"type": "integer", **_bounds(known)}
         return {"type": "array", "minItems": 2, "maxItems": 2, "items": items, **rest}
     if known.kind == tuple[str, ...]:
-        items = {"type": "string", "enum": list(known.choices)}
-        return {"type": "array", "minItems": 1, "uniqueItems": True, "items": items, **rest}
+        items = {"enum": list(known.choices)} if known.choices else {"minLength": 1}
+        items = {"type": "string", **items}
+        names = {"type": "array", "minItems": 1, "uniqueItems": True, "items": items}
+        return {**(names if known.choices else {"anyOf": [items, names]}), **rest}
     if known.choices:
         return {"type": "string", "enum": [*known.choices, *known.former], **rest}
     if known.ranges:

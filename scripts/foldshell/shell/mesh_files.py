@@ -9,7 +9,7 @@ from foldshell.files.whole import atomic_path, read_arrays, write_arrays
 from foldshell.shell.edge_beams import EdgeBeam, facet_edges, free_edges, hang_edge_beam_panels
 from foldshell.shell.mesh import ShellMesh, build_mesh, edge_polyline_nodes
 from foldshell.shell.reference import lagrange_basis, lattice_points
-from foldshell.shell.supports import find_support, supported_pairs
+from foldshell.shell.supports import find_borders, find_support, supported_pairs
 
 
 def mesh_folded_sheet(
@@ -24,7 +24,8 @@ def mesh_folded_sheet(
     See `build_mesh` for subdivisions and order.
 
     Besides the fields of `ShellMesh` these are vertices (V, 3) m, facets (F, 3), facet_panel (F,),
-    support_pairs (K, 2) as vertices and supported_nodes (S,). With an edge beam its
+    support_pairs (K, 2) as vertices, support_border (K,) the border of each (`supports.BORDERS`),
+    and supported_nodes (S,). With an edge beam its
     vertices, facets and panels stand after those of the sheet, and fixed_thickness (B,) m holds
     the thickness of the last B panels, the edge beam's, which are not sized.
     """
@@ -45,6 +46,7 @@ def mesh_folded_sheet(
         "facets": facets,
         "facet_panel": facet_panel,
         "support_pairs": pairs,
+        "support_border": find_borders(pairs, folded["zigzag"], folded["strip"]),
         "supported_nodes": edge_polyline_nodes(mesh, pairs),
         **fixed,
     }

@@ -5,9 +5,10 @@ import copy
 import openpyxl
 import pytest
 
-from crosscheck.comparison import TOLERANCES, Code, build_independent, compare
+from crosscheck.comparison import TOLERANCES, compare
 from crosscheck.errors import CrosscheckError
 from crosscheck.records import to_data
+from crosscheck.values import Code, build_independent
 from crosscheck.workbook import write_comparison
 from foldshell.settings.crosscheck import Tolerance
 

@@ -6,7 +6,7 @@ import pytest
 from crosscheck import buckling
 from crosscheck.analysis import analyse_model
 from crosscheck.buckling import compute_buckling_factors
-from crosscheck.comparison import Code, build_independent, compare
+from crosscheck.comparison import compare
 from crosscheck.model import read_model
 from crosscheck.second_order import (
     NotSettled,
@@ -17,6 +17,7 @@ from crosscheck.second_order import (
 )
 from crosscheck.stability import list_stability_values
 from crosscheck.system import build_system, solve_facets, solve_loads
+from crosscheck.values import Code, build_independent
 from crosscheck_models import describe_model, describe_small_fold, write_model
 
 

@@ -14,11 +14,11 @@ from crosscheck.facet import condense_facets
 from crosscheck.stress import compute_strains
 from crosscheck.system import (
     Section,
-    assemble_skeleton,
     compute_element_matrices,
     join_fields,
     turn_stiffness,
 )
+from crosscheck_models import assemble_skeleton
 
 TURN = Rotation.from_euler("zyx", [0.7, -0.4, 1.1]).as_matrix()
 PLANE = np.array([[0, 0, 0], [2, 0.3, 0], [2.4, 1.9, 0], [-0.3, 1.5, 0], [0.9, 0.8, 0]])

@@ -12,12 +12,11 @@ from crosscheck.frontal import NotPositiveDefinite, Spans, factor_sum, plan_elim
 from crosscheck.mesh import build_mesh
 from crosscheck.model import read_model
 from crosscheck.system import (
-    assemble_skeleton,
     compute_element_matrices,
     join_fields,
     turn_stiffness,
 )
-from crosscheck_models import describe_small_fold, write_model
+from crosscheck_models import assemble_skeleton, describe_small_fold, write_model
 
 
 @pytest.fixture

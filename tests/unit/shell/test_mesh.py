@@ -6,7 +6,13 @@ import pytest
 from foldshell.shell.mesh import build_mesh, edge_polyline_nodes, split_subdivisions
 from foldshell.shell.mesh_files import cell_triangles, interpolate_to_cells, result_mesh
 from foldshell.shell.stress import cell_points
-from foldshell.shell.supports import find_support, supported_pairs
+from foldshell.shell.supports import (
+    BORDERS,
+    find_borders,
+    find_support,
+    share_supported_nodes,
+    supported_pairs,
+)
 from shell_cases import folded_strip, random_rotation, skewed_patch
 
 SQUARE = np.array([[0, 0, 0], [1, 0, 0], [1, 1, 0], [0, 1, 0.0]])
@@ -80,6 +86,25 @@ def test_supports_are_the_border_polylines():
     assert found["all"] == [[0, 1], [8, 9], [0, 4], [3, 7]]
     with pytest.raises(ValueError, match="support 'edges'"):
         find_support("edges")
+
+
+def test_borders_and_the_half_of_a_corner():
+    """Zig-zag lines 0, 1, 2 along y, strips 0, 1 along x: one corner of two held borders."""
+    vertices = np.array([[x, y, 0.0] for y in range(3) for x in range(2)])
+    facets = np.array([[0, 1, 3], [0, 3, 2], [2, 3, 5], [2, 5, 4]])
+    zigzag, strip = np.divmod(np.arange(6), 2)
+    pairs = np.array([[0, 1], [4, 5], [0, 2], [3, 5], [2, 3], [0, 3]])
+    border = find_borders(pairs, zigzag, strip)
+    assert [BORDERS[k] if k >= 0 else None for k in border] == [*BORDERS, None, None]
+    mesh = build_mesh(vertices, facets, subdivisions=2)
+    held = np.array([[0, 1], [0, 2]])
+    nodes = edge_polyline_nodes(mesh, held)
+    shares = share_supported_nodes(mesh, held, np.array([0, 2]), nodes)
+    assert list(shares) == ["first zig-zag edge", "first strip edge"]
+    places = mesh.nodes[nodes]
+    on_zigzag, on_strip = places[:, 1] == 0, places[:, 0] == 0
+    assert np.array_equal(shares["first zig-zag edge"], on_zigzag / (1 + (on_zigzag & on_strip)))
+    assert np.array_equal(sum(shares.values()), np.ones(len(nodes)))
 
 
 @pytest.mark.parametrize("subdivisions", [2, 4, 8])

@@ -1,0 +1,51 @@
+"""Which combinations govern the final state of a design, for mesh error and cross-check."""
+
+from collections.abc import Sequence
+
+from foldshell.records.analysis import AnalysisRecord
+from foldshell.settings.crosscheck import GOVERNING, Crosscheck
+from foldshell.settings.loads import Combinations
+
+
+def choose_combinations(
+    chosen: Crosscheck, combinations: Combinations, report: AnalysisRecord
+) -> dict[str, list[str]]:
+    """Return the names of the combinations that are compared, {"strength": [..], ..}.
+
+    `chosen` names them, or asks for those that govern a criterion of final.json, `report`.
+    """
+    strength, deflection = list(chosen.strength), list(chosen.deflection)
+    if strength == [GOVERNING]:
+        strength = list_governing_strength(report, list(combinations.strength))
+    if deflection == [GOVERNING]:
+        deflection = [find_governing_deflection(report, list(combinations.deflection))]
+    return {"strength": strength, "deflection": deflection}
+
+
+def list_governing_strength(report: AnalysisRecord, names: Sequence[str]) -> list[str]:
+    """Return the strength combinations of the most utilized panel and of the least buckling factor.
+
+    The first of `names` where the state has neither, as that of a mechanism.
+    """
+    known = {name: report.buckling_factor.get(name) for name in names}
+    factors = {name: factor for name, factor in known.items() if factor is not None}
+    found = [report.governing_combination, min(factors, key=factors.__getitem__, default=None)]
+    return list(dict.fromkeys(name for name in found if name in names)) or list(names[:1])
+
+
+def find_governing_deflection(report: AnalysisRecord, names: Sequence[str]) -> str:
+    """Return the deflection combination of the largest displacement, the first where none is."""
+    found = report.displacement_combination
+    return found if found in names else names[0]
+
+
+def find_limits(report: AnalysisRecord) -> dict[str, float]:
+    """Return what the criteria allow of displacement (m) and of the largest panel mean.
+
+    Under the names of `MeshQuantities`; what is not asked for is left out.
+    """
+    criteria = {
+        "displacement_down_max_m": report.criteria.displacement_vertical_m,
+        "utilization_panel_mean_max": report.criteria.utilization_panel_mean,
+    }
+    return {name: one.limit for name, one in criteria.items() if one is not None}
