@@ -40,8 +40,8 @@ class Jobs(Group):
 class Figures(Group):
     """Pictures."""
 
-    width_px: int = setting(1600, unit="px", minimum=200, maximum=8000, meaning="Width.")
-    height_px: int = setting(1200, unit="px", minimum=200, maximum=8000, meaning="Height.")
+    width_px: int = setting(1200, unit="px", minimum=200, maximum=8000, meaning="Width.")
+    height_px: int = setting(900, unit="px", minimum=200, maximum=8000, meaning="Height.")
 
 
 AUTO = "auto"
