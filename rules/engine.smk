@@ -51,7 +51,7 @@ def find_analysis(**wildcards):
 
 def run_anew(job, fname, edit):
     """Start Python anew for a script; what it prints goes to its log and to the terminal."""
-    execute, log = job._execute_cmd, str(job.log[0]) if job.log and not edit else "/dev/null"
+    execute, log = job._execute_cmd, str(job.log[0]) if job.log and not edit else os.devnull
     job._execute_cmd = lambda command, **fields: execute(
         f"( {command} ) 2>&1 | tee {{log:q}} >&2", log=log, **fields
     )
