@@ -7,7 +7,7 @@ from crosscheck.errors import report_errors
 from crosscheck.model import read_model
 from crosscheck.primary import read_primary, read_reason
 from crosscheck.reading import write_json
-from crosscheck.records import MULTIFRONTAL, to_data
+from crosscheck.records import to_data
 from crosscheck.stability import Method
 from crosscheck.system import SHEAR_FACTOR
 from crosscheck.verdict import check_meshes, compare_codes, leave_out
@@ -24,7 +24,7 @@ def main(
     tolerance: Mapping[str, float] | None = None,
     stability: bool = True,
     shear_factor: float = SHEAR_FACTOR,
-    solver: str = MULTIFRONTAL,
+    solver: str,
 ) -> None:
     """Read model.json and primary.json; write comparison.json and comparison.xlsx.
 

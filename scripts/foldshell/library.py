@@ -22,6 +22,9 @@ from foldshell.pattern.fold_format import write_fold
 from foldshell.pattern.sheet import Sheet
 from foldshell.records.analysis import AnalysisRecord
 from foldshell.records.analysis_arrays import AnalysisArrays
+from foldshell.settings.design import DesignColumns
+from foldshell.settings.field import list_settings
+from foldshell.settings.fold import Pattern
 from foldshell.settings.study import Settings
 from foldshell.shell.edge_beams import make_edge_beam
 from foldshell.shell.mesh_files import mesh_folded_sheet
@@ -32,6 +35,9 @@ from foldshell.sizing.rounding import round_thickness
 from foldshell.workbook.panels import PanelGrid, ThicknessTable
 from foldshell.workbook.styles import Line, make_lines
 from foldshell.workbook.write_thickness import write_thickness
+
+DEFAULTS = DesignColumns()
+"""What is taken where an argument is left out, as in a table of designs."""
 
 
 @dataclass(frozen=True)
@@ -76,8 +82,8 @@ def make_sheet(
     target: Quadric | MeshTarget,
     zigzag_count: int,
     strip_count: int,
-    pattern: str = "miura",
-    sector_angle_deg: float = 60.0,
+    pattern: str = DEFAULTS.pattern,
+    sector_angle_deg: float = list_settings(Pattern)["sector_angle"].default,
 ) -> Sheet:
     """Size a crease pattern of so many zig-zags and strips for a target.
 
@@ -91,7 +97,7 @@ def make_sheet(
 def fold_sheet(
     sheet: Sheet,
     target: Quadric | MeshTarget,
-    mode: str = "elastic",
+    mode: str = DEFAULTS.fold_mode,
     settings: Settings | None = None,
 ) -> FoldedSheet:
     """Fold a sheet onto a target; a sheet that does not reach it says so in `result.state`."""
@@ -101,9 +107,9 @@ def fold_sheet(
 
 def mesh_shell(
     folded: FoldedSheet,
-    support: str = "all",
+    support: str = DEFAULTS.support,
     settings: Settings | None = None,
-    edge_beam: tuple[float, float] = (0.0, 0.0),
+    edge_beam: tuple[float, float] = (DEFAULTS.edge_beam_depth, DEFAULTS.edge_beam_thickness),
 ) -> Shell:
     """Mesh a folded sheet, pin it along zig-zag, strip or all borders, and hang an edge beam of a
     depth and a thickness (m) from free ones. Raises `ValueError` for a mechanism."""

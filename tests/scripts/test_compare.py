@@ -1,5 +1,6 @@
 """The entry script of rule crosscheck, run by its path, on a small corrugated roof."""
 
+import functools
 import json
 import os
 import runpy
@@ -13,6 +14,7 @@ import pytest
 from crosscheck import verdict
 from crosscheck.errors import CrosscheckError, MechanismError
 from crosscheck.model import read_model
+from crosscheck.records import MULTIFRONTAL
 from crosscheck.stability import FIRST_ORDER, Method, analyse_mesh
 from crosscheck_models import describe_primary, describe_small_fold, write_model
 
@@ -21,7 +23,7 @@ SCRIPT = Path(__file__).parents[2] / "scripts" / "compare.py"
 
 @pytest.fixture(scope="module")
 def main():
-    return runpy.run_path(str(SCRIPT))["main"]
+    return functools.partial(runpy.run_path(str(SCRIPT))["main"], solver=MULTIFRONTAL)
 
 
 @pytest.fixture(scope="module")
@@ -184,7 +186,7 @@ class Files(list):  # as Snakemake's: by number and by name
 job = types.SimpleNamespace(
     input=Files(model={paths[0]!r}, primary={paths[1]!r}),
     output=Files(comparison={paths[2]!r}, workbook={paths[3]!r}),
-    params={{"subdivisions": [1, 2]}}, wildcards={{}}, rule="compare",
+    params={{"subdivisions": [1, 2], "solver": "multifrontal"}}, wildcards={{}}, rule="compare",
 )
 runpy.run_path({str(SCRIPT)!r}, init_globals={{"snakemake": job}}, run_name="__main__")
 """
