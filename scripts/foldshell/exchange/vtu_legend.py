@@ -8,7 +8,7 @@ from foldshell.results.state import DesignState
 
 _FACET = "in the facet's axes x (axis_x), y, normal (upward)"
 _MEANINGS = {
-    "panel": ("-", "number of the panel, strips of an edge beam after the sized panels"),
+    "panel": ("-", "number of the panel, those of an edge beam after the sized panels"),
     "thickness": ("m", "thickness of the panel"),
     "thickness_class": ("-", "class of the panel, 1 for the thinnest, 0 for an edge beam"),
     "class_thickness": ("m", "thickness of that class"),
