@@ -12,6 +12,8 @@ import page
 from foldshell.records.analysis import Criteria
 from foldshell.report import page as library
 from foldshell.report.arrays import unpack_arrays
+from foldshell.report.sections import describe_design
+from foldshell.settings.design import Design
 from record_cases import make_comparison, make_criterion, make_quantity
 from report_cases import DESIGN, SETTINGS, read_data, write_files
 
@@ -189,3 +191,11 @@ def test_single_combination_has_its_own_fields_arrows_and_section_forces(tmp_pat
     found = browse(path, *software, "--enable-unsafe-swiftshader")
     assert "Reactions [kN]: first strip edge x" in found
     assert found.count('<tr><td class="">') == 1
+
+
+@pytest.mark.parametrize(
+    ("pattern", "words"),
+    [("miura", "folded in mode elastic"), ("flat", "laid out, not folded"), ("smooth", "laid out")],
+)
+def test_what_was_not_folded_is_not_said_to_be(pattern, words):
+    assert words in describe_design(Design(name="a", pattern=pattern))

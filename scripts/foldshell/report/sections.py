@@ -25,6 +25,7 @@ from foldshell.report.history_chart import Series, draw_history
 from foldshell.report.markup import format_number, make_table
 from foldshell.report.quality_sections import make_crosscheck, make_mesh_error
 from foldshell.report.section import Box, Section, judge_met
+from foldshell.results.comparisons import UNFOLDED
 from foldshell.results.design_view import count_analyses
 from foldshell.settings.design import Design
 from foldshell.workbook.styles import GOOD_VERDICTS
@@ -113,10 +114,12 @@ def make_sections(files: DesignFiles, utilization_max: float) -> list[Section]:
 def describe_design(design: Design) -> str:
     """Return the row of designs.tsv as one sentence."""
     tags = ", ".join(design.tags or ("none",))
+    laid = design.pattern in UNFOLDED
+    made = "laid out, not folded" if laid else f"folded in mode {design.fold_mode}"
     return (
         f"{design.pattern} pattern, surface {design.surface}, span {design.span:g} m, "
         f"height {design.height:g} m, {design.zigzag} zig-zags × {design.strip} strips, "
-        f"{design.support} edges supported, folded in mode {design.fold_mode}; tags {tags}"
+        f"{design.support} edges supported, {made}; tags {tags}"
     )
 
 
