@@ -15,6 +15,9 @@ from foldshell.exchange.model import ExportModel, load_on_facets
 from foldshell.exchange.options import ExportOptions
 from foldshell.files.whole import atomic_path
 
+MESHES = (2, 4)
+"""Divisions n of the two meshes: ASDShellQ4 settles with 1/n from the coarser on."""
+
 RUN = '''
 
 def build():
@@ -86,7 +89,7 @@ if __name__ == "__main__":
 
 def write_opensees(model: ExportModel, paths: tuple[Path, ...], options: ExportOptions) -> None:
     """Write a script for each of the two meshes."""
-    for path, n in zip(paths, options.subdivisions, strict=True):
+    for path, n in zip(paths, MESHES, strict=True):
         with atomic_path(path) as temporary:
             temporary.write_text(script(model, n), encoding="ascii")
 

@@ -17,16 +17,14 @@ PACKAGES = {"rhino3dm": "rhino3dm", "ifcopenshell": "ifcopenshell", "trimesh": "
 
 @dataclass(frozen=True)
 class ExportOptions:
-    """Colours and scale of drawings, the sheets (m) panels are cut from, seconds for nesting, the
-    divisions of a facet's sides in the two meshes for FE programs; `sources` are files of the
-    design by role: design_vtu, pattern."""
+    """Colours and scale of drawings, the sheets (m) panels are cut from, seconds for nesting;
+    `sources` are files of the design by role: design_vtu, pattern."""
 
     preset: str = "fold"
     scale: float = 1.0
     sheet_length: float = 12.0
     sheet_width: float = 3.0
     nesting_seconds: int = 20
-    subdivisions: tuple[int, int] = (1, 2)
     sources: Mapping[str, Path] = field(default_factory=dict)
 
 

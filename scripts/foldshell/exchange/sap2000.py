@@ -1,6 +1,6 @@
 """SAP2000's text files (.s2k): written, and read back as tables.
 
-Areas are the quadrilaterals of the finer mesh, in groups by panel; sections carry the thickness.
+Areas are quadrilaterals, three times 2 x 2 a facet, in groups by panel; sections carry thickness.
 Every combination is a nonlinear static case with P-Delta, as the design was analysed, and a
 buckling case stands beside. In kN, m, C.
 """
@@ -16,6 +16,8 @@ from foldshell.files.whole import atomic_path
 from foldshell.loads.cases import WEIGHT, SurfaceLoad
 
 GRAVITY = 9.80665
+DIVISIONS = 2
+"""n of the mesh: three times n x n areas a facet."""
 Row = Mapping[str, object]
 AXES = {(1.0, 0.0, 0.0): ("X", 1), (0.0, 1.0, 0.0): ("Y", 1), (0.0, 0.0, -1.0): ("Gravity", 1)}
 """Directions of SAP2000 by unit vector; others are taken by components."""
@@ -23,7 +25,7 @@ AXES = {(1.0, 0.0, 0.0): ("X", 1), (0.0, 1.0, 0.0): ("Y", 1), (0.0, 0.0, -1.0): 
 
 def write_s2k(model: ExportModel, paths: tuple[Path, ...], options: ExportOptions) -> None:
     """Write the .s2k file."""
-    mesh = divide_facets(model, options.subdivisions[1], middles=False)
+    mesh = divide_facets(model, DIVISIONS, middles=False)
     lines = [f"File {paths[0].name} was made by foldshell for design {model.design}", ""]
     for name, rows in _tables(model, mesh):
         lines += [f'TABLE:  "{name}"', *("   " + "   ".join(_entries(row)) for row in rows), ""]
