@@ -42,6 +42,23 @@ for FORMAT in FORMATS:
             "../scripts/export.py"
 
 
+rule export_index:
+    input:
+        records=[f"{EXPORTS}/records/{name}.json" for name in SETTINGS.exports.formats],
+        library=code_inputs("export_index"),
+    output:
+        page=f"{EXPORTS}/index.html",
+    log:
+        log_of("export_index"),
+    priority: AFTER_LOOP
+    conda:
+        "../envs/foldshell.yaml"
+    message:
+        "{wildcards.design}: list of exports"
+    script:
+        "../scripts/export_index.py"
+
+
 rule export:
     input:
         lambda wildcards: [file for name in names_of_tag(SETTINGS.study) for file in exported(name)],

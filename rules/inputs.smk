@@ -98,5 +98,5 @@ def exported(design):
     """Return the files of all formats that are asked for, of a design."""
     names = SETTINGS.exports.formats
     files = [file for name in names for file in name_files(name, design)]
-    records = [f"records/{name}.json" for name in names]
-    return [f"{RESULTS}/{design}/exports/{file}" for file in files + records]
+    more = [f"records/{name}.json" for name in names] + ["index.html"]
+    return [f"{RESULTS}/{design}/exports/{file}" for file in files + more]

@@ -134,6 +134,7 @@ def _make_card(entry: DesignEntry, columns: Sequence[Column], to_results: str, t
         "name": entry.name,
         "page": f"{to_results}/{entry.name}/page.html",
         "sheet": f"{to_results}/{entry.name}/sheet.html",
+        "exports": f"{to_results}/{entry.name}/exports/",
         "values": {key: cell.value for key, cell in row.items()},
         "kinds": {key: cell.kind for key, cell in row.items() if cell.kind},
         "governing": governing.words if governing else "no check has a value",
