@@ -4,11 +4,13 @@ import numpy as np
 import pytest
 
 import analyse
+import resize
 import start
 from foldshell.files.errors import InputError
 from foldshell.files.whole import hash_file, read_arrays, read_json, write_arrays
 from foldshell.sizing.case import open_case
 from sizing_case import PANELS, SPAN, STRIP, ZIGZAG, given, stage, write_small_mesh
+from workbook_cases import edit_with_openpyxl
 
 KEYS = """
     iteration verdict reason criteria utilization_max utilization_p99 utilization_panel_mean_max
@@ -42,6 +44,10 @@ def _analyse(mesh, book, iteration=0, previous=None, **sizing):
     return read_json(files[0]), read_arrays(files[1])
 
 
+def _change_panel(book):
+    book["thickness"]["D5"].value = 0.2
+
+
 def test_report_keeps_the_contract(tmp_path, mesh, capsys):
     book = _start(tmp_path)
     report, arrays = _analyse(mesh, book)
@@ -68,6 +74,42 @@ def test_second_analysis_of_the_same_thickness_sees_no_change_of_volume(tmp_path
     assert report["criteria"]["volume_change_m3"]["value"] == 0
     assert report["verdict"] == "not_converged"  # too thick to be used, and nothing changed
     assert arrays["displacement"].shape[0] > 0
+
+
+def test_a_change_by_a_person_starts_a_new_count_of_iterations(tmp_path, mesh):
+    """One iteration is allowed: the second analysis ends the loop, the same with a panel changed
+    goes on, the third ends it again and says since when it counted."""
+    few = {"iterations_max": 1}
+    place = {"design": "small", "zigzag": ZIGZAG, "strip": STRIP}
+    before = None
+    reports, books = [], [_start(tmp_path)]
+    for number in range(3):
+        if number:
+            folder = tmp_path / f"{number:02d}"
+            names = ("thickness.xlsx", "memory.npz", "written.json")
+            memory = before[0].parent / "memory.npz" if number > 1 else None
+            resize.main(*before, *(folder / name for name in names), **place,
+                        settings=stage("resize", **few), previous_memory=memory)  # fmt: skip
+            books.append(folder / "thickness.xlsx")
+        report, _ = _analyse(mesh, books[-1], number, before, **few)
+        if number == 1:
+            assert report["verdict"] == "not_converged"
+            assert "1 iterations" in report["reason"] and report["counted_from"] == 0
+            edit_with_openpyxl(books[-1], _change_panel)
+            report, _ = _analyse(mesh, books[-1], number, before, **few)
+        before = books[-1].parent / "analysis.json", books[-1].parent / "analysis.npz"
+        reports.append(report)
+    assert [report["verdict"] for report in reports] == ["continue", "continue", "not_converged"]
+    assert [report["counted_from"] for report in reports] == [0, 1, 1]
+    assert [report.get("edited_panels") for report in reports] == [None, [2], None]
+    assert "since the edit of iteration 1" in reports[2]["reason"]
+
+
+def test_a_workbook_saved_without_a_change_starts_no_new_count(tmp_path, mesh):
+    book = _start(tmp_path)
+    edit_with_openpyxl(book, lambda book: None)
+    report, _ = _analyse(mesh, book)
+    assert report["edited"] and report["edited_panels"] == [] and report["counted_from"] == 0
 
 
 def test_thinnest_sheet_ends_at_its_bound(tmp_path, mesh):

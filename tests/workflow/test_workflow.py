@@ -141,6 +141,27 @@ def test_a_hand_edit_redoes_what_follows_and_only_that(code, copied):
     assert ",edited," in history[2] and ",edited," not in history[1]
 
 
+def test_an_edit_of_the_last_workbook_lets_the_loop_go_on(code, copied):
+    """All 4 iterations are used up; a panel changed in the last workbook gives the design 4 more.
+
+    That a person changed a panel stands in history and summary.
+    """
+    loop = copied / "results/tiny-dome/sizing"
+    before = last_iteration(copied, "tiny-dome")
+    assert (before["verdict"], before["iteration"]) == ("not_converged", 4)
+    edit(loop / "04/thickness.xlsx", 3, 0.123)
+    assert run(code, copied, TARGET).returncode == 0
+    last = last_iteration(copied, "tiny-dome")
+    assert last["counted_from"] == 4 < last["iteration"] <= 8
+    assert last["verdict"] != "continue"
+    with (loop / "history.csv").open(newline="") as stream:
+        edited = [row["edited_panels"] for row in csv.DictReader(stream)]
+    assert edited == [*[""] * 4, "1", *[""] * (last["iteration"] - 4)]
+    with (copied / TARGET).open(newline="") as stream:
+        rows = {row["design"]: row["edited_panels"] for row in csv.DictReader(stream)}
+    assert rows == {"tiny-dome": "1", "tiny-saddle": ""}
+
+
 def test_a_deleted_analysis_is_made_anew_and_all_ends_as_before(code, copied, finished):
     (copied / "results/tiny-dome/sizing/01/analysis.json").unlink()
     done = run(code, copied, TARGET)
