@@ -24,6 +24,7 @@ from foldshell.figures.load_path_figures import (
 )
 from foldshell.figures.render import render_scenes
 from foldshell.figures.scene import LIFT, Lines
+from foldshell.records.analysis import DECIDES
 from foldshell.results.colour_scales import (
     ABOVE,
     MISSING,
@@ -162,8 +163,11 @@ def specify_utilization(view: DesignView) -> FigureSpec:
         return specify_nothing(view, "Utilization", "no utilization")
     scale = make_limit_scale(values, limit)
     report = state.report
+    decides = {DECIDES[view.sizing.measure]: " (decides)"}
     facts = (
-        f"panel mean at most {report.utilization_panel_mean_max:.2f}; pointwise 99 % of the "
+        f"panel mean at most {report.utilization_panel_mean_max:.2f}"
+        f"{decides.get('utilization_panel_mean_max', '')}, peak of a cell {values.max():.2f}"
+        f"{decides.get('utilization_max', '')}; pointwise 99 % of the "
         f"area at most {report.utilization_p99:.2f}, mean {report.utilization_mean:.2f}"
     )
     if len(state.edge_beam_thickness):
