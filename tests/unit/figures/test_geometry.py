@@ -5,6 +5,7 @@ import pytest
 
 from figure_cases import make_state
 from foldshell.figures.camera import fit_camera, look_at
+from foldshell.figures.pictures import specify_utilization
 from foldshell.pattern.grid import build_grid
 from foldshell.results.creases import cut_dashes, find_creases
 from foldshell.results.design_view import make_design_view
@@ -144,3 +145,16 @@ def test_border_of_a_region():
     border = find_region_border(triangles, np.array([True, True, False, False]))
     assert border.tolist() == [[0, 1], [0, 3]]
     assert len(find_region_border(triangles, np.ones(4, dtype=bool))) == 0
+
+
+@pytest.mark.parametrize(
+    ("measure", "words"),
+    [
+        ("panel_mean", "panel mean at most 0.40 (decides); pointwise"),
+        ("element_max", "cells at most 0.40 (decides), panel mean at most 0.40; pointwise"),
+    ],
+)
+def test_the_picture_of_utilization_says_which_number_decides(tmp_path, measure, words):
+    settings = make_settings({"sizing": {"measure": measure}})
+    view = make_design_view(make_state(tmp_path), 5.0, settings.sizing, settings.material)
+    assert words in str(specify_utilization(view).caption)
