@@ -39,7 +39,9 @@ def test_page_holds_everything_that_is_said_of_the_design(tmp_path):
     assert "data:image/webp;base64," in text
     facts, packed = read_data(text)
     arrays = unpack_arrays(facts["arrays"], packed)
-    assert {f"field_{field['name']}" for field in facts["fields"]} < set(arrays)
+    fields = {f"field_{field['name']}" for field in facts["fields"]} - {"field_displacement"}
+    assert fields < set(arrays)
+    assert arrays["moved"].shape[0] == len(facts["combinations"]) == 4
 
 
 def test_page_says_that_a_person_changed_panels(tmp_path):
@@ -79,11 +81,16 @@ def test_unstable_and_plain_designs_have_a_page(tmp_path, pattern):
     assert [field["name"] for field in facts["fields"]] == ["thickness", "planarity"]
 
 
-def test_pictures_give_way_to_the_size_limit(tmp_path, monkeypatch):
-    """A page that is too large drops its pictures; one that still is, is refused."""
+def test_page_gives_way_to_the_size_limit(tmp_path, monkeypatch):
+    """First combinations are only to be looked at, then pictures go; what still is too large is
+    refused."""
     full = run(tmp_path)
     monkeypatch.setattr(library, "SIZE_MAX", len(full.encode()) - 1)
-    assert "data:image/webp" not in run(tmp_path)
+    coarse = run(tmp_path)
+    types = {array["name"]: array["type"] for array in read_data(coarse)[0]["arrays"]}
+    assert types["moved"] == "uint8" and coarse.count("data:image/webp") == 2
+    monkeypatch.setattr(library, "SIZE_MAX", len(coarse.encode()) - 1)
+    assert run(tmp_path).count("data:image/webp") == 1
     monkeypatch.setattr(library, "SIZE_MAX", 1000)
     with pytest.raises(ValueError, match="1000 at most"):
         run(tmp_path)

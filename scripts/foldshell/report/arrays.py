@@ -8,7 +8,7 @@ import numpy as np
 
 from foldshell.files.whole import Json
 
-STEPS = 65534
+STEPS, COARSE_STEPS = 65534, 254
 """Steps between the least and the largest of real values; the number after them stands for nan."""
 LEVEL = 9
 
@@ -17,16 +17,18 @@ def pack_arrays(arrays: Mapping[str, np.ndarray]) -> tuple[list[Json], str]:
     """Return a header an array, and the deflated bytes of all of them as base64.
 
     Whole numbers keep their value in the least of uint8, uint16, uint32 that holds them. Real
-    ones are rounded to value = low + step * number, number in 0 ... 65534, and nan is 65535. Each
-    array starts at a multiple of 4 bytes. Little-endian.
+    ones are rounded to value = low + step * number, number in 0 ... 65534, and nan is 65535; of
+    single precision, which says that they are only to be looked at, 0 ... 254 and 255. Each array
+    starts at a multiple of 4 bytes. Little-endian.
 
     Arrays of any shape, such as (P,) or (V, 3), and unit.
     """
     headers, parts, offset = [], [], 0
     for name, values in arrays.items():
         values = np.asarray(values)
-        scale = {} if values.dtype.kind in "biu" else _find_range(values)
-        numbers = _to_numbers(values, **scale) if scale else _shorten(values)
+        steps = COARSE_STEPS if values.dtype == np.float32 else STEPS
+        scale = {} if values.dtype.kind in "biu" else _find_range(values, steps)
+        numbers = _to_numbers(values, steps, **scale) if scale else _shorten(values)
         header = {"name": name, "type": numbers.dtype.name, "shape": list(values.shape)}
         headers.append(header | {"offset": offset} | scale)
         data = numbers.astype(numbers.dtype.newbyteorder("<")).tobytes()
@@ -50,23 +52,25 @@ def unpack_arrays(headers: Sequence[Json], text: str) -> dict[str, np.ndarray]:
         numbers = np.frombuffer(data, kind, int(np.prod(shape)), header["offset"]).reshape(shape)
         if "step" in header:
             real = header["low"] + header["step"] * numbers
-            arrays[header["name"]] = np.where(numbers > STEPS, np.nan, real)
+            missing = numbers == np.iinfo(numbers.dtype).max
+            arrays[header["name"]] = np.where(missing, np.nan, real)
         else:
             arrays[header["name"]] = numbers
     return arrays
 
 
-def _find_range(values: np.ndarray) -> dict[str, float]:
+def _find_range(values: np.ndarray, steps: int) -> dict[str, float]:
     """Return the least finite value and the step from one number to the next."""
     finite = values[np.isfinite(values)]
     low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 0.0)
-    return {"low": low, "step": (high - low) / STEPS or 1.0}
+    return {"low": low, "step": (high - low) / steps or 1.0}
 
 
-def _to_numbers(values: np.ndarray, low: float, step: float) -> np.ndarray:
+def _to_numbers(values: np.ndarray, steps: int, low: float, step: float) -> np.ndarray:
     finite = np.isfinite(values)
     numbers = np.round((np.where(finite, values, low) - low) / step)
-    return np.where(finite, np.clip(numbers, 0, STEPS), STEPS + 1).astype(np.uint16)
+    kind = np.min_scalar_type(steps + 1)
+    return np.where(finite, np.clip(numbers, 0, steps), steps + 1).astype(kind)
 
 
 def _shorten(values: np.ndarray) -> np.ndarray:

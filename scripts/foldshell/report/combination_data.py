@@ -17,7 +17,7 @@ from foldshell.results.colour_scales import (
 )
 from foldshell.results.combination_fields import CombinationFields, evaluate_combinations
 from foldshell.results.design_view import DesignView
-from foldshell.results.fields import cell_area
+from foldshell.results.fields import cell_area, choose_deflection
 from foldshell.results.reactions import Reactions, find_reactions
 from foldshell.results.state import DesignState
 from foldshell.settings.stage import StageSettings
@@ -41,6 +41,27 @@ def make_more_data(
     thickness = read_typed_arrays(iterations, IterationsArrays).thickness
     arrays = found.arrays | {"iteration_thickness": thickness}
     return ViewerData(arrays, found.facts | {"iterations": list(range(len(thickness)))})
+
+
+def add_combinations(viewer: ViewerData, more: ViewerData) -> ViewerData:
+    """Return both together; the displacement that the envelope shows is that of a combination, so
+    that it need not stand twice."""
+    arrays = viewer.arrays | more.arrays
+    if "moved" in more.arrays:
+        for name in ("shape_displacement", "field_displacement"):
+            arrays.pop(name, None)
+    return ViewerData(arrays, viewer.facts | more.facts)
+
+
+def make_coarse(more: ViewerData, cells: int) -> ViewerData:
+    """Return the same for a page that would grow too large: displacements to be looked at only, and
+    the largest utilization of `cells` triangles, those of a facet, at once."""
+    if not more.arrays.get("used", np.empty(0)).size:
+        return more
+    used = more.arrays["used"]
+    largest = used.reshape(len(used), -1, cells).max(axis=2)
+    coarse = {"moved": more.arrays["moved"].astype(np.float32), "used": largest}
+    return ViewerData(more.arrays | coarse, more.facts)
 
 
 def make_combination_data(
@@ -73,6 +94,7 @@ def make_combination_data(
         "quantities": _scales(view, moved, used, sections),
         "cases": list(reactions.cases),
         "size": view.size,
+        "displaced": state.combinations.index(choose_deflection(state)),
     }
     return ViewerData(arrays, facts)
 

@@ -4,7 +4,6 @@
 
 const byId = (id) => document.getElementById(id);
 const facts = JSON.parse(byId("facts").textContent);
-const STEPS = 65534; // of real values; 65535 is nan
 const KINDS = { uint8: Uint8Array, uint16: Uint16Array, uint32: Uint32Array };
 
 async function readArrays() {
@@ -16,8 +15,9 @@ async function readArrays() {
   for (const { name, type, shape, offset, low, step } of facts.arrays) {
     const count = shape.reduce((a, b) => a * b, 1);
     const numbers = new KINDS[type](data, offset, count);
+    const missing = 2 ** (8 * numbers.BYTES_PER_ELEMENT) - 1; // of real values
     arrays[name] = step === undefined ? numbers
-      : Float32Array.from(numbers, (n) => (n > STEPS ? NaN : low + step * n));
+      : Float32Array.from(numbers, (n) => (n === missing ? NaN : low + step * n));
   }
   return arrays;
 }

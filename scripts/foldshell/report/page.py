@@ -2,12 +2,14 @@
 
 import base64
 import io
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from pathlib import Path
+from typing import Any
 
 from PIL import Image
 
 from foldshell.report.arrays import pack_arrays
+from foldshell.report.combination_data import add_combinations, make_coarse
 from foldshell.report.markup import render
 from foldshell.report.sections import DesignFiles, describe_design, make_sections
 from foldshell.report.viewer_data import ViewerData
@@ -47,7 +49,7 @@ def write_design_page(
     """Return the page as HTML of at most `SIZE_MAX` bytes.
 
     `more` is what the 3D view shows of single combinations and iterations, `pictures` are PNG
-    files by name. Where the page is larger, pictures go first, then what there is more.
+    files by name. Where the page is larger, `more` gets coarser, then pictures go, then `more`.
     """
     shown = [show_picture(name, path) for name, path in pictures.items() if name in SHOWN]
     still = next((name for name in STILLS if name in pictures), None)
@@ -58,9 +60,7 @@ def write_design_page(
         "links": FILES | _link_pictures(pictures),
     }
     small = still and show_picture(still, pictures[still], STILL_WIDTH)
-    whole = ViewerData(viewer.arrays | more.arrays, viewer.facts | more.facts)
-    for data, images, picture in ((whole, shown, small), (whole, [], None), (viewer, shown, small),
-                                  (viewer, [], None)):  # fmt: skip
+    for data, images, picture in _choices(viewer, more, shown, small):
         headers, packed = pack_arrays(data.arrays)
         facts = NOTHING_MORE | data.facts | {"arrays": headers}
         page = render("design.html", **values, facts=facts, packed=packed, pictures=images,
@@ -68,6 +68,21 @@ def write_design_page(
         if len(page.encode()) <= SIZE_MAX:
             return page
     raise ValueError(f"page of {len(page.encode())} bytes: {SIZE_MAX} at most")
+
+
+def _choices(
+    viewer: ViewerData, more: ViewerData, shown: list, still: Any
+) -> Iterator[tuple[ViewerData, list, Any]]:
+    """Yield what a page may hold, all of it first: single combinations coarser, only the picture in
+    place of the 3D view, no picture, no combinations, neither."""
+    cells = len(viewer.arrays["panel"]) // viewer.facts["facets"]
+    for one in (more, make_coarse(more, cells)):
+        whole = add_combinations(viewer, one)
+        yield whole, shown, still
+    yield whole, [], still
+    yield whole, [], None
+    yield viewer, shown, still
+    yield viewer, [], None
 
 
 def _link_pictures(pictures: Mapping[str, str | Path]) -> dict[str, str]:

@@ -18,10 +18,12 @@ function findSection(arrays, k, panel) { // n, m, v of a panel in combination k,
 
 function valuesOf(field, k, arrays) { // what colours the sheet in combination k
   if (field.name === "used") {
-    const count = sizeOf("used")[1];
-    return arrays.used.subarray(k * count, (k + 1) * count);
+    const count = sizeOf("used")[1], cells = arrays.panel.length / count;
+    const own = arrays.used.subarray(k * count, (k + 1) * count);
+    return cells === 1 ? own
+      : Float32Array.from(arrays.panel, (_, i) => own[Math.floor(i / cells)]);
   }
-  if (field.name === "down") {
+  if (field.name === "down" || field.name === "displacement") {
     const moved = movedOf(k, arrays);
     return Float32Array.from({ length: moved.length / 3 }, (_, i) => -1000 * moved[3 * i + 2]);
   }

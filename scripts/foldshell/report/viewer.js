@@ -136,17 +136,17 @@ class App {
   setField() {
     const field = this.fields[byId("field").value], arrays = this.arrays;
     this.shown = field;
+    const single = this.combination < 0 ? facts.displaced : this.combination;
     this.renderer.setField(field, arrays["field_" + field.name]
-      ?? valuesOf(field, this.combination, arrays));
+      ?? valuesOf(field, single, arrays));
     drawLegend(field);
     this.draw();
   }
 
   setShape() {
-    const single = this.combination, shape = this.shape;
-    const own = single >= 0 && shape?.name === "displacement";
-    this.renderer.setShape(own ? movedOf(single, this.arrays)
-      : shape && this.arrays["shape_" + shape.name]);
+    const shape = this.shape, kept = shape && this.arrays["shape_" + shape.name];
+    const single = this.combination < 0 ? facts.displaced : this.combination;
+    this.renderer.setShape(kept ?? (shape && movedOf(single, this.arrays)));
     this.draw();
   }
 

@@ -95,7 +95,7 @@ def make_viewer_data(view: DesignView, grid: Grid | None = None) -> ViewerData:
     for name, words, moved, factor in _shapes(view, grid):
         values[f"shape_{name}"] = moved
         shapes.append({"name": name, "words": words, "factor": factor})
-    facts = {"fields": fields, "shapes": shapes}
+    facts = {"fields": fields, "shapes": shapes, "facets": len(state.shell["facets"])}
     return ViewerData(arrays | values, facts)
 
 

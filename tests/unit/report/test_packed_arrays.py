@@ -39,3 +39,13 @@ def test_arrays_start_at_multiples_of_four():
     """Typed arrays of a browser must be aligned to their item size."""
     headers, _ = pack_arrays({"a": np.arange(3), "b": np.arange(7), "c": np.ones(3)})
     assert all(header["offset"] % 4 == 0 for header in headers)
+
+
+def test_single_precision_takes_a_byte():
+    """Values that are only to be looked at: 254 steps, nan stays nan."""
+    values = np.linspace(-3, 5, 100, dtype=np.float32)
+    values[7] = np.nan
+    headers, text = pack_arrays({"a": values})
+    assert headers[0]["type"] == "uint8"
+    found = unpack_arrays(headers, text)["a"]
+    assert np.isnan(found[7]) and np.nanmax(np.abs(found - values)) <= 0.5001 * 8 / 254
