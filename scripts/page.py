@@ -43,8 +43,10 @@ def main(
     view = view_design(state, given, one.span, one.pattern)
     files = read_files(one, paths)
     more = make_more_data(view, make_grid(view), given, paths["iterations"])
-    limit = view.sizing.utilization_max
-    page = write_design_page(files, make_viewer_data(view), more, pictures, limit)
+    limit, exports = view.sizing.utilization_max, Path(page_path).parent / "exports/index.html"
+    page = write_design_page(
+        files, make_viewer_data(view), more, pictures, limit, exports.is_file()
+    )
     with atomic_path(page_path) as temporary:
         temporary.write_text(page, encoding="utf-8")
 

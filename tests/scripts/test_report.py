@@ -184,3 +184,16 @@ def test_report_in_a_browser(tmp_path):
     assert "2 of 2 shown" in done.stdout
     assert done.stdout.count("<polyline") == 4
     assert "<title>Folded shells: study mine</title>" in done.stdout
+
+
+def test_files_for_other_programs_are_linked_where_they_are(tmp_path):
+    """Of the design that has them, their list first; a dead link leads nobody astray."""
+    arguments = write_results(tmp_path)
+    for name in ("index.html", "a.3dm", "a.ifc"):
+        (tmp_path / "a/exports").mkdir(exist_ok=True)
+        (tmp_path / "a/exports" / name).write_text("x")
+    report.main(**arguments)
+    text = arguments["report"].read_text(encoding="utf-8")
+    assert re.findall(r'href="\./(\w+)/exports/([\w.]+)"', text) == [
+        ("a", "index.html"), ("a", "index.html"), ("a", "a.3dm"), ("a", "a.ifc")
+    ]  # fmt: skip

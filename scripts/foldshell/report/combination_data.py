@@ -8,6 +8,7 @@ import numpy as np
 from foldshell.loads.cases import make_load_cases, surface_loads
 from foldshell.records.analysis_arrays import IterationsArrays
 from foldshell.records.arrays import read_typed_arrays
+from foldshell.report.loads_section import describe_loads
 from foldshell.report.viewer_data import COLOURS, Grid, ViewerData
 from foldshell.results.colour_scales import (
     ColourScale,
@@ -92,7 +93,10 @@ def make_combination_data(
     facts = {
         "combinations": _describe(view, reactions, settings, moved),
         "quantities": _scales(view, moved, used, sections),
-        "cases": list(reactions.cases),
+        "cases": [
+            [case.name, f"{case.name}: {case.words}, {case.size}"]
+            for case in describe_loads(settings).cases
+        ],
         "size": view.size,
         "displaced": state.combinations.index(choose_deflection(state)),
     }

@@ -45,11 +45,13 @@ def write_design_page(
     more: ViewerData,
     pictures: Mapping[str, str | Path],
     utilization_max: float,
+    exported: bool = False,
 ) -> str:
     """Return the page as HTML of at most `SIZE_MAX` bytes.
 
     `more` is what the 3D view shows of single combinations and iterations, `pictures` are PNG
-    files by name. Where the page is larger, `more` gets coarser, then pictures go, then `more`.
+    files by name, `exported` tells whether there is a list of files for other programs. Where the
+    page is larger, `more` gets coarser, then pictures go, then `more`.
     """
     shown = [show_picture(name, path) for name, path in pictures.items() if name in SHOWN]
     still = next((name for name in STILLS if name in pictures), None)
@@ -58,6 +60,7 @@ def write_design_page(
         "description": describe_design(files.design),
         "sections": make_sections(files, utilization_max),
         "links": FILES | _link_pictures(pictures),
+        "exported": exported,
     }
     small = still and show_picture(still, pictures[still], STILL_WIDTH)
     for data, images, picture in _choices(viewer, more, shown, small):

@@ -70,10 +70,10 @@ function makeArrows(tips, vectors, longest, pulls) { // shafts and four strokes 
   return ends;
 }
 
-function loadsOf(k, arrays) { // kN on each panel
+function loadsOf(factors, arrays) { // kN on each panel
   const [cases, panels] = sizeOf("case_force"), out = new Float32Array(3 * panels);
   for (let i = 0; i < cases; i++) {
-    const factor = facts.combinations[k].factors[i];
+    const factor = factors[i];
     if (factor) for (let j = 0; j < out.length; j++)
       out[j] += factor * arrays.case_force[i * out.length + j];
   }

@@ -17,6 +17,7 @@ from foldshell.records.files import read_record, read_records
 from foldshell.records.mesh_convergence import MeshConvergenceRecord
 from foldshell.records.summary import SummaryRow
 from foldshell.records.table import read_rows
+from foldshell.report.beside import list_exports
 from foldshell.report.checks import Check, find_governing, list_checks, read_engineering
 from foldshell.report.loads_section import describe_loads
 from foldshell.report.markdown import render_markdown
@@ -42,6 +43,7 @@ class DesignEntry:
     checks: Sequence[Check]
     comparison: ComparisonRecord
     convergence: MeshConvergenceRecord
+    exports: Sequence[str] = ()
 
     @property
     def name(self) -> str:
@@ -80,6 +82,7 @@ def _read_design(row: SummaryRow, folder: Path) -> DesignEntry:
         list_checks(final, read_engineering(folder)),
         read_comparison(folder / "crosscheck/comparison.json"),
         read_record(folder / "mesh_convergence.json", MeshConvergenceRecord),
+        list_exports(folder),
     )
 
 
@@ -134,7 +137,7 @@ def _make_card(entry: DesignEntry, columns: Sequence[Column], to_results: str, t
         "name": entry.name,
         "page": f"{to_results}/{entry.name}/page.html",
         "sheet": f"{to_results}/{entry.name}/sheet.html",
-        "exports": f"{to_results}/{entry.name}/exports/",
+        "exports": [f"{to_results}/{entry.name}/exports/{name}" for name in entry.exports],
         "values": {key: cell.value for key, cell in row.items()},
         "kinds": {key: cell.kind for key, cell in row.items() if cell.kind},
         "governing": governing.words if governing else "no check has a value",

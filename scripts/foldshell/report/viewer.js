@@ -56,6 +56,7 @@ class App {
     byId("iterations-part").hidden = facts.iterations.length < 2;
     for (const id of ["first", "second"]) this.fill(id, facts.iterations);
     byId("second").value = facts.iterations.length - 1;
+    this.fill("loads-of", ["the combination", ...(facts.cases ?? []).map(([name]) => name)]);
     this.middles = findMiddles(arrays);
     this.listen();
     this.setCombination();
@@ -104,10 +105,14 @@ class App {
   setArrows() {
     const single = this.combination, arrays = this.arrays, longest = (kind) =>
       ARROW_SHARE[kind] * facts.size;
-    for (const kind of ["loads", "reactions"]) byId(kind).disabled = single < 0;
-    const loads = single >= 0 && byId("loads").checked;
-    this.renderer.setArrows("loads", loads
-      ? makeArrows(this.middles, loadsOf(single, arrays), longest("loads"), false) : []);
+    const number = byId("loads-of").value - 1; // of a single case; -1: of the combination
+    const factors = number >= 0 ? facts.cases.map((_, i) => +(i === number))
+      : facts.combinations[single]?.factors;
+    byId("reactions").disabled = single < 0;
+    byId("loads").disabled = !factors;
+    byId("loads-words").textContent = number >= 0 ? facts.cases[number][1] : "";
+    this.renderer.setArrows("loads", factors && byId("loads").checked
+      ? makeArrows(this.middles, loadsOf(factors, arrays), longest("loads"), false) : []);
     let ends = [];
     if (single >= 0 && byId("reactions").checked) {
       const count = 3 * sizeOf("reaction")[1];
@@ -161,7 +166,11 @@ class App {
     byId("field").onchange = () => this.setField();
     byId("shape").onchange = () => this.setShape();
     byId("combination").onchange = () => this.setCombination();
-    byId("loads").onchange = byId("reactions").onchange = () => this.setArrows();
+    for (const id of ["loads", "reactions"]) byId(id).onchange = () => this.setArrows();
+    byId("loads-of").onchange = () => {
+      byId("loads").checked = true;
+      this.setArrows();
+    };
     byId("first").onchange = byId("second").onchange = () => this.compareIterations();
     byId("compare").onclick = () => this.compareIterations();
     byId("deform").oninput = () => this.draw();

@@ -33,6 +33,7 @@ def test_every_text_of_a_page_is_escaped():
     design = {"title": EVIL, "description": EVIL, "sections": [section], "links": {EVIL: EVIL},
               "pictures": [{"words": EVIL, "path": EVIL, "data": EVIL}], "facts": {"name": EVIL},
               "packed": "", "scripts": [],
+              "exported": False,
               "still": {"words": EVIL, "path": EVIL, "data": EVIL}}  # fmt: skip
     summary = {"title": EVIL, "counts": EVIL, "checked": 0, "columns": [(EVIL, 0)],
                "rows": [(EVIL, [Cell(EVIL)])]}  # fmt: skip
