@@ -5,6 +5,7 @@ from pathlib import Path
 
 from foldshell.engine.job import run_job
 from foldshell.files.whole import atomic_path
+from foldshell.report.beside import list_exports
 from foldshell.report.combination_data import make_more_data
 from foldshell.report.page import write_design_page
 from foldshell.report.sections import read_files
@@ -34,19 +35,16 @@ def main(
     paths : mesh, folded, arrays, class_arrays, iterations (npz), final, quality, classes,
         mesh_convergence, comparison (json), history (csv)
     pictures : PNG files by name
-    design : row of designs.tsv
-    settings : plain parameters of stage `size`
+    design, settings : row of designs.tsv, plain parameters of stage `size`
     """
-    state_paths = [paths[name] for name in ARRAYS]
     one, given = Design.from_row(design), read_stage(settings, *ANALYSED)
+    state_paths = [paths[name] for name in ARRAYS]
     state = read_state(one.name, *state_paths, given.combinations, paths["class_arrays"])
     view = view_design(state, given, one.span, one.pattern)
     files = read_files(one, paths)
     more = make_more_data(view, make_grid(view), given, paths["iterations"])
-    limit, exports = view.sizing.utilization_max, Path(page_path).parent / "exports/index.html"
-    page = write_design_page(
-        files, make_viewer_data(view), more, pictures, limit, exports.is_file()
-    )
+    rest = pictures, view.sizing.utilization_max, bool(list_exports(Path(page_path).parent))
+    page = write_design_page(files, make_viewer_data(view), more, *rest)
     with atomic_path(page_path) as temporary:
         temporary.write_text(page, encoding="utf-8")
 
