@@ -6,6 +6,10 @@ PYTHON ?= python3.11
 CORES ?= 2
 STAMP := $(VENV)/.installed
 RUN := $(abspath $(VENV))/bin
+# Snakemake keeps a cache in the home; where that cannot be written, here.
+ifneq ($(shell mkdir -p "$$HOME/.cache" 2>/dev/null && test -w "$$HOME/.cache" && echo yes),yes)
+export XDG_CACHE_HOME ?= $(CURDIR)/.snakemake/cache
+endif
 export OPENBLAS_NUM_THREADS ?= 1
 export OMP_NUM_THREADS ?= 1
 

@@ -8,6 +8,7 @@ import webbrowser
 from collections.abc import Sequence
 from pathlib import Path
 
+from foldshell.engine.environment import choose_cache
 from foldshell.engine.new_study import make_study_folder
 from foldshell.files.errors import InputError, user_errors
 from foldshell.files.package_data import library_folder, workflow_folder
@@ -51,7 +52,8 @@ def run_program(name: str, arguments: Sequence[str]) -> int:
         if not any(word.startswith(("-c", "--cores", "-j", "--jobs")) for word in arguments):
             program += ["--cores", str(count_cores())]
     path = [str(library_folder()), *filter(None, [os.environ.get("PYTHONPATH")])]
-    environment = os.environ | {"PYTHONPATH": os.pathsep.join(path)}
+    environment = dict(os.environ) | {"PYTHONPATH": os.pathsep.join(path)}
+    choose_cache(environment, ".snakemake/cache")
     try:
         return subprocess.call([*program, *arguments], env=environment)
     except KeyboardInterrupt:

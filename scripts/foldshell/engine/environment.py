@@ -1,8 +1,10 @@
 """The environment that the workflow gives its jobs."""
 
+import os
 import platform
 from collections.abc import Iterable, MutableMapping
 from importlib.metadata import version
+from pathlib import Path
 
 ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 """Jobs run side by side; threads of their own would only wait for each other."""
@@ -13,6 +15,17 @@ KEEP_MEMORY = {"MALLOC_MMAP_THRESHOLD_": str(4 * 10**9), "MALLOC_TRIM_THRESHOLD_
 
 SMALL_PAGES = {"NUMPY_MADVISE_HUGEPAGE": "0"}
 """The system clears a huge page whole when an array begins to use it: 8 % of a cross-check."""
+
+
+def choose_cache(environment: MutableMapping[str, str], folder: str | Path) -> None:
+    """Let Snakemake keep its cache in `folder` where the home cannot be written: it ends with a
+    traceback otherwise, before it reads any Snakefile."""
+    if "XDG_CACHE_HOME" in environment:
+        return
+    home = Path(environment.get("HOME", "/"))
+    cache = next(path for path in (home / ".cache", home, *home.parents) if path.exists())
+    if not os.access(cache, os.W_OK) or not cache.is_dir():
+        environment["XDG_CACHE_HOME"] = str(Path(folder).resolve())
 
 
 def prepare_environment(environment: MutableMapping[str, str]) -> None:

@@ -34,19 +34,40 @@ def _make_plain(message: str) -> str:
 
 @contextmanager
 def user_errors() -> Iterator[None]:
-    """Print an `InputError` or a full disk as one line on stderr and exit with code 1."""
+    """Print an `InputError`, a full disk or a lack of memory as one line on stderr; exit code 1."""
     try:
         yield
-    except InputError as error:
-        print(f"error: {error}", file=sys.stderr)
-        raise SystemExit(1) from None
-    except OSError as error:
-        if error.errno not in NO_SPACE:
+    except Exception as error:
+        sentence = _describe(error)
+        if not sentence:
             raise
-        print(f"error: {_say_full(error)}", file=sys.stderr)
+        print(f"error: {sentence}", file=sys.stderr)
         raise SystemExit(1) from None
 
 
-def _say_full(error: OSError) -> str:
-    place = f"{error.filename}: " if error.filename else ""
-    return f"{place}{error.strerror}: free some space and start again, what is done is kept"
+def _describe(error: Exception) -> str:
+    full = find_full_disk(error)
+    if full:
+        place = f"{full.filename}: " if full.filename else ""
+        return f"{place}{full.strerror}: free some space and start again, what is done is kept"
+    if isinstance(error, MemoryError):
+        return (
+            "memory ran short: take fewer --cores, a lower resources mem_mb or smaller designs; "
+            "what is done is kept"
+        )
+    return str(error) if isinstance(error, InputError) else ""
+
+
+def find_full_disk(error: BaseException | None) -> OSError | None:
+    """Return the error of a full disk that an exception is, holds or came from, None without."""
+    seen: list[BaseException] = []
+    waiting = [error]
+    while waiting:
+        one = waiting.pop()
+        if not isinstance(one, BaseException) or one in seen:
+            continue
+        if isinstance(one, OSError) and one.errno in NO_SPACE:
+            return one
+        seen.append(one)
+        waiting += [one.__cause__, one.__context__, *one.args]
+    return None

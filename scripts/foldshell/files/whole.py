@@ -16,7 +16,7 @@ from typing import Any, BinaryIO
 
 import numpy as np
 
-from foldshell.files.errors import InputError
+from foldshell.files.errors import InputError, find_full_disk
 
 FAULT_POINT = os.environ.get("FOLDSHELL_FAULT_POINT", "")
 """For tests: the process group is killed once a file whose path ends so has been written."""
@@ -50,8 +50,10 @@ def atomic_path(path: str | Path) -> Iterator[Path]:
             _HELD[str(path.absolute())] = temporary
             return
         _put_into_place(temporary, path)
-    except BaseException:
+    except BaseException as error:
         temporary.unlink(missing_ok=True)
+        if full := find_full_disk(error):
+            full.filename = str(path)
         raise
 
 

@@ -1,6 +1,6 @@
 """The environment of jobs."""
 
-from foldshell.engine.environment import prepare_environment
+from foldshell.engine.environment import choose_cache, prepare_environment
 
 
 def test_what_a_person_has_set_stays():
@@ -12,3 +12,18 @@ def test_what_a_person_has_set_stays():
     assert environment["NUMPY_MADVISE_HUGEPAGE"] == "0"
     assert environment["HOME"] == "/home/a"
     assert "PYTHONDONTWRITEBYTECODE" not in environment
+
+
+def test_a_home_that_cannot_be_written_has_its_cache_elsewhere(tmp_path):
+    """A home that is a file, or is not there and cannot be made, stands for one without rights."""
+    (tmp_path / "file").touch()
+    for home in (tmp_path / "file", tmp_path / "file/below"):
+        environment = {"HOME": str(home)}
+        choose_cache(environment, tmp_path / "cache")
+        assert environment["XDG_CACHE_HOME"] == str(tmp_path / "cache")
+    environment = {"HOME": str(tmp_path)}
+    choose_cache(environment, tmp_path / "cache")
+    assert "XDG_CACHE_HOME" not in environment
+    environment = {"HOME": str(tmp_path / "file"), "XDG_CACHE_HOME": "mine"}
+    choose_cache(environment, tmp_path / "cache")
+    assert environment["XDG_CACHE_HOME"] == "mine"
