@@ -3,19 +3,18 @@
 
 import inspect
 import logging
-import time
 from subprocess import CalledProcessError
+from types import SimpleNamespace
 
 from snakemake import benchmark as benchmarks, script as scripts
 from snakemake.exceptions import IncompleteCheckpointException, WorkflowError
 
-from foldshell.engine.fork_client import AVAILABLE, ForkServer, NoForkServer
+from foldshell.engine.fork_client import AVAILABLE, ForkServer
 from foldshell.engine.job_end import describe_end
 from foldshell.engine.name_check import NameCheck
 from foldshell.engine.preload import MODULES, POOLS
 
-SERVERS = []  # the fork server, once the first job may start
-PRIVATE = NameCheck()
+SERVERS, PRIVATE = [], NameCheck()  # the fork server, once the first job may start
 SCRIPT_FIELDS = "conda_env container_img env_modules shadow_dir rulename wildcards log bench_record"
 RECORD_FIELDS = "running_time cpu_time cpu_usage max_rss data_collected"
 KNOWN = PRIVATE.has(workflow, "workflow", "main_snakefile")
@@ -25,15 +24,23 @@ MAIN_SNAKEFILE = workflow.main_snakefile if KNOWN else f"{workflow.basedir}/Snak
 def terminal_handler():
     """Return the handler by which Snakemake writes to a terminal, None where lines are due."""
     known = PRIVATE.has(logging._handlers, "logging", "DefaultStreamHandler")
-    handler, asked = logging._handlers.get("DefaultStreamHandler"), workflow.output_settings
-    lines_are_due = not known or not handler.stream.isatty() or asked.verbose or asked.quiet
-    return None if lines_are_due else handler
+    handler = logging._handlers.get("DefaultStreamHandler")
+    asked = setting_of("output_settings", "verbose") or setting_of("output_settings", "quiet")
+    return handler if known and handler.stream.isatty() and not asked else None
+
+
+def setting_of(group, name):
+    """Return a setting of this run, an empty list where Snakemake has none of that name."""
+    settings = getattr(workflow, group, None)
+    return getattr(settings, name) if PRIVATE.has(settings, group, name) else []
 
 
 def is_target(*names):
     """Tell whether one of the rules is asked for by name on the command line."""
-    known = PRIVATE.has(workflow.dag_settings, "dag_settings", "targets")
-    return known and bool(set(names) & set(map(str, workflow.dag_settings.targets)))
+    return bool(set(names) & set(map(str, setting_of("dag_settings", "targets"))))
+
+
+DEPLOYMENT = {way.name.lower() for way in setting_of("deployment_settings", "deployment_method")}
 
 
 def runs_here():
@@ -62,17 +69,13 @@ def run_in_fork(job, fname):
     """Run a script in a fork, if it can be, and return how that ended: None if it cannot."""
     if job.conda_env or job.container_img or job.env_modules or job.shadow_dir or not SERVERS:
         return None
-    log, start = str(job.log[0]) if job.log else "", time.time()
-    pool, affinity = POOLS.get(job.rulename, ""), job.wildcards.get("design", "")
-    try:
-        end = SERVERS[0].start(fname, pool, affinity, log).wait()
-    except NoForkServer:
-        return None
-    show_job(log, bool(end.code))
-    if job.bench_record is not None:
-        for name, value in zip(RECORD_FIELDS.split(), end.describe(time.time() - start)):
-            setattr(job.bench_record, name, value)
-    return end.code
+    log, pool = str(job.log[0]) if job.log else "", POOLS.get(job.rulename, "")
+    end = SERVERS[0].run(fname, pool, job.wildcards.get("design", ""), log)
+    if end is not None:
+        show_job(log, bool(end.code))
+        found = zip(RECORD_FIELDS.split(), end.describe())
+        vars(job.bench_record or SimpleNamespace()).update(found)
+    return end and end.code
 
 
 def execute_script(self, fname, edit=False):
@@ -84,19 +87,17 @@ def execute_script(self, fname, edit=False):
         if code:
             raise CalledProcessError(code, f"{sys.executable} {fname}")
     except CalledProcessError as error:
-        if sentence := describe_end(self.rulename, dict(self.wildcards.items()), error.returncode):
-            raise WorkflowError(sentence) from None
-        raise
+        sentence = describe_end(self.rulename, dict(self.wildcards.items()), error.returncode)
+        raise WorkflowError(sentence) if sentence else error
 
 
 SCRIPT = getattr(scripts, "PythonScript", object)
 RECORD = getattr(benchmarks, "BenchmarkRecord", object)
 START_PYTHON = getattr(SCRIPT, "execute_script", None)
-if (
-    PRIVATE.has(SCRIPT, "PythonScript", "execute_script _execute_cmd")
-    & PRIVATE.has(inspect.signature(SCRIPT.__init__).parameters, "PythonScript", SCRIPT_FIELDS)
-    & PRIVATE.has(RECORD(), "BenchmarkRecord", RECORD_FIELDS)
-):
+FIELDS = inspect.signature(SCRIPT.__init__).parameters
+KNOWN = PRIVATE.has(SCRIPT, "PythonScript", "execute_script _execute_cmd")
+KNOWN &= PRIVATE.has(FIELDS, "PythonScript", SCRIPT_FIELDS)
+if PRIVATE.has(RECORD(), "BenchmarkRecord", RECORD_FIELDS) and KNOWN:
     SCRIPT.execute_script = execute_script
 
 

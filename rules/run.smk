@@ -3,9 +3,15 @@
 from snakemake.logging import logger
 
 from foldshell.engine.copies import copy_study
+from foldshell.engine.environment import check_deployment
+from foldshell.engine.interrupt import stop_once
 from foldshell.engine.job_end import show_log
 from foldshell.engine.live_view import LiveView, describe_results
+from foldshell.files.package_data import is_installed
 from foldshell.settings.places import TOP, claim_results
+
+with user_errors():
+    check_deployment(DEPLOYMENT, is_installed())
 
 VIEWS = []  # on a terminal: the lines that stay
 
@@ -13,6 +19,7 @@ VIEWS = []  # on a terminal: the lines that stay
 def begin_run():
     """Write down whose results these are; on a terminal, show the run in a few lines."""
     RUN["started"] = True
+    stop_once()
     claim_results(RESULTS, SETTINGS.designs)
     if handler := terminal_handler():
         print(f"results: {Path(RESULTS).resolve()}", file=sys.stderr)

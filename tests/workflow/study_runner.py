@@ -110,7 +110,9 @@ def count_files(folder: Path) -> int:
 def find_jobs(process: subprocess.Popen) -> list[int]:
     """Return the ids of the job processes of a running Snakemake: forks of the fork server."""
     listed = subprocess.run(
-        ["ps", "-o", "pid=,ppid=,args=", "--sid", str(process.pid)], capture_output=True, text=True
+        ["ps", "-ww", "-o", "pid=,ppid=,args=", "--sid", str(process.pid)],
+        capture_output=True,
+        text=True,
     )
     lines = [line.split(maxsplit=2) for line in listed.stdout.splitlines()]
     servers = {

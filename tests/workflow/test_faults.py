@@ -1,5 +1,6 @@
 """A tiny study under faults: kills, Ctrl-C, a full disk, a second start, other settings."""
 
+import contextlib
 import json
 import os
 import random
@@ -7,6 +8,8 @@ import resource
 import shutil
 import signal
 import subprocess
+import time
+from pathlib import Path
 
 import pytest
 from study_runner import (
@@ -148,3 +151,47 @@ def start_script(code, folder, *arguments):
         capture_output=True,
         text=True,
     )
+
+
+@pytest.mark.parametrize("pause", [0.0, 0.05, 0.3])
+def test_ctrl_c_again_and_again_is_no_traceback(code, tmp_path, pause):
+    """The first one ends the run; what is done is kept."""
+    folder = make_study(tmp_path / "stopped")
+    process = subprocess.Popen(
+        command(code, TARGET),
+        cwd=folder,
+        stderr=subprocess.PIPE,
+        stdout=subprocess.DEVNULL,
+        text=True,
+        start_new_session=True,
+    )
+    while not list(folder.glob("results/*/sizing/00/analysis.json")):
+        time.sleep(0.02)
+    for _ in range(3):
+        os.killpg(process.pid, signal.SIGINT)
+        time.sleep(pause)
+    said = process.communicate(timeout=60)[1]
+    assert process.returncode != 0
+    assert "Traceback" not in said and "Terminating processes on user request" in said
+
+
+def test_a_killed_job_names_its_signal_and_a_hint_at_memory(code, tmp_path):
+    """The others go on; the process was killed by nobody that it knows."""
+    folder = make_study(tmp_path / "killed")
+    process = subprocess.Popen(
+        command(code, TARGET),
+        cwd=folder,
+        stderr=subprocess.PIPE,
+        stdout=subprocess.DEVNULL,
+        text=True,
+        start_new_session=True,
+    )
+    while process.poll() is None:  # until an analysis is killed before it ends by itself
+        for job in find_jobs(process):
+            with contextlib.suppress(OSError):
+                if "analyse" in Path(f"/proc/{job}/comm").read_text():
+                    os.kill(job, signal.SIGKILL)
+    said = process.communicate(timeout=300)[1]
+    assert process.returncode != 0
+    assert "killed by signal 9 (SIGKILL)" in said and "memory ran short" in said
+    assert "start again, what is done is kept" in said

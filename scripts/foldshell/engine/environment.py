@@ -6,6 +6,8 @@ from collections.abc import Iterable, MutableMapping
 from importlib.metadata import version
 from pathlib import Path
 
+from foldshell.files.errors import InputError
+
 ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 """Jobs run side by side; threads of their own would only wait for each other."""
 
@@ -26,6 +28,23 @@ def choose_cache(environment: MutableMapping[str, str], folder: str | Path) -> N
     cache = next(path for path in (home / ".cache", home, *home.parents) if path.exists())
     if not os.access(cache, os.W_OK) or not cache.is_dir():
         environment["XDG_CACHE_HOME"] = str(Path(folder).resolve())
+
+
+def check_deployment(methods: Iterable[str], installed: bool) -> None:
+    """Raise `InputError` for a way to deploy software that has nothing to deploy."""
+    methods = set(methods)
+    if "apptainer" in methods:
+        raise InputError(
+            "--sdm apptainer: no container is declared: take --sdm conda, or an environment made "
+            "from envs/requirements.lock"
+        )
+    if "env_modules" in methods:
+        raise InputError("--sdm env-modules: no modules are declared: take --sdm conda")
+    if "conda" in methods and installed:
+        raise InputError(
+            "--sdm conda: jobs of an installed foldshell need its own environment: run without "
+            "--sdm, or from a checkout"
+        )
 
 
 def prepare_environment(environment: MutableMapping[str, str]) -> None:

@@ -6,8 +6,9 @@ import socket
 import subprocess
 import sys
 import threading
+import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from foldshell.engine.fork_server import ENDED, SIGNAL, STARTED
@@ -27,16 +28,18 @@ class NoForkServer(OSError):
 
 @dataclass(frozen=True)
 class JobResult:
-    """How a script ended: exit code, processor time (s) and largest resident memory (MB)."""
+    """How a script ended: exit code, processor time (s), largest resident memory (MB), and the wall
+    time (s) since it was started."""
 
     code: int
     cpu_seconds: float
     rss_mb: float
+    seconds: float = 0.0
 
-    def describe(self, seconds: float) -> tuple[float, float, float, float, bool]:
+    def describe(self) -> tuple[float, float, float, float, bool]:
         """Return wall time and processor time (s), the latter in per cent of a second, memory (MB),
         and that all are known: in the order of a benchmark record."""
-        return seconds, self.cpu_seconds, 100 * self.cpu_seconds, self.rss_mb, True
+        return self.seconds, self.cpu_seconds, 100 * self.cpu_seconds, self.rss_mb, True
 
 
 class Job:
@@ -131,6 +134,17 @@ class ForkServer:
         except OSError as error:
             own.close()
             raise NoForkServer(str(error)) from error
+
+    def run(
+        self, script: str | Path, pool: str = "", affinity: str = "", log: str | Path = ""
+    ) -> JobResult | None:
+        """Run a script to its end; None if it cannot even be started. Arguments as of `start`."""
+        begun = time.time()
+        try:
+            result = self.start(script, pool, affinity, log).wait()
+        except NoForkServer:
+            return None
+        return replace(result, seconds=time.time() - begun)
 
     def stop(self) -> None:
         """End the server once its scripts have been started; they go on."""

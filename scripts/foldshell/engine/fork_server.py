@@ -25,6 +25,8 @@ import traceback
 STARTED = struct.Struct("q")
 ENDED = struct.Struct("qdq")
 MESSAGE_MAX = 65536
+INTERRUPTED = 128 + signal.SIGINT
+"""Exit code after Ctrl-C, as a shell gives it."""
 SIGNAL = struct.Struct("i")
 OWN_AND_CHILDREN = resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN
 
@@ -123,6 +125,8 @@ def run_script(script: str) -> int:
             return end.code or 0
         print(end.code, file=sys.stderr)
         return 1
+    except KeyboardInterrupt:
+        return INTERRUPTED
     except BaseException:
         traceback.print_exc()
         return 1

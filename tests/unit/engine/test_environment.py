@@ -1,6 +1,9 @@
 """The environment of jobs."""
 
-from foldshell.engine.environment import choose_cache, prepare_environment
+import pytest
+
+from foldshell.engine.environment import check_deployment, choose_cache, prepare_environment
+from foldshell.files.errors import InputError
 
 
 def test_what_a_person_has_set_stays():
@@ -27,3 +30,18 @@ def test_a_home_that_cannot_be_written_has_its_cache_elsewhere(tmp_path):
     environment = {"HOME": str(tmp_path / "file"), "XDG_CACHE_HOME": "mine"}
     choose_cache(environment, tmp_path / "cache")
     assert environment["XDG_CACHE_HOME"] == "mine"
+
+
+@pytest.mark.parametrize(
+    ("methods", "installed", "word"),
+    [
+        ({"apptainer"}, False, "no container is declared"),
+        ({"apptainer", "conda"}, False, "no container is declared"),
+        ({"env_modules"}, False, "no modules are declared"),
+        ({"conda"}, True, "from a checkout"),
+    ],
+)
+def test_a_way_to_deploy_without_anything_to_deploy_is_refused(methods, installed, word):
+    with pytest.raises(InputError, match=word):
+        check_deployment(methods, installed)
+    check_deployment({"conda"} - methods, False)
