@@ -69,7 +69,7 @@ def test_a_pipe_as_a_table_is_refused_at_once(tmp_path):
     from foldshell.settings.make import make_settings, read_settings
 
     os.mkfifo(tmp_path / "designs.tsv")
-    with pytest.raises(InputError, match="a pipe or a device"):
+    with pytest.raises(InputError, match="not a plain file"):
         read_designs(tmp_path / "designs.tsv", make_settings({}))
-    with pytest.raises(InputError, match="a pipe or a device"):
+    with pytest.raises(InputError, match="not a plain file"):
         read_settings(tmp_path / "designs.tsv")
