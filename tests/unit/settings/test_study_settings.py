@@ -6,6 +6,7 @@ import math
 from pathlib import Path
 
 import jsonschema
+import numpy as np
 import pytest
 import yaml
 
@@ -414,3 +415,20 @@ def test_load_study_reads_files_strictly_and_takes_overrides(tmp_path):
 def test_nested_settings_get_dotted_names():
     plain = {"a": {"b": 1, "c": {"d": [1, 2]}}, "e": "f"}
     assert flatten(plain) == [("a.b", 1), ("a.c.d", "1, 2"), ("e", "f")]
+
+
+def test_a_surface_from_a_file_has_the_height_of_the_file(tmp_path):
+    """What stands in the table is not what was computed: a dome of 1.5 m over 6 m by 6 m."""
+    count = 13
+    x, y = (axis.ravel() for axis in np.meshgrid(*2 * [np.linspace(-3, 3, count)]))
+    z = 1.5 * (1 - (x**2 + y**2) / 18)
+    lines = [f"v {a!r} {b!r} {c!r}" for a, b, c in zip(x, y, z, strict=True)]
+    first = np.arange(1, count**2 + 1).reshape(count, count)[:-1, :-1].ravel()
+    lines += [f"f {k} {k + 1} {k + count + 1} {k + count}" for k in first]
+    (tmp_path / "dome.obj").write_text("\n".join(lines).replace("np.float64(", "").replace(")", ""))
+    table = tmp_path / "designs.tsv"
+    row = f"{tmp_path}/dome.obj\t6\t2.5"
+    table.write_text(f"design\tsurface\tspan_m\theight_m\na\t{row}\nb\tarch\t6\t2.5\n")
+    _, (found, named) = load_study({"designs": str(table)})
+    assert found.height == pytest.approx(1.5, rel=1e-12) and named.height == 2.5
+    assert found.to_row()["height_m"] == found.height
