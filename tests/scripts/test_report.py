@@ -28,6 +28,15 @@ ROW = {"design": "a", "tags": "supports,mine", "pattern": "miura", "surface": "a
 SETTINGS = stage_parameters(make_settings({}), "study")
 
 
+NUMBERS = {
+    "parts": [{"part": "a part", "verdict": "mixed", "asserted": True, "holds": 2, "fails": 1,
+               "cannot_be_told": 0}],
+    "findings": [{"part": "softer by one tenth", "designs": ["a", "b"], "quantity": "volume_m3",
+                  "unit": "m3", "values": [2.0, None], "uncertainty": None, "verdict": "fails"}],
+    "pooled": {"panels": 42, "spearman": None, "pearson": 0.1},
+}  # fmt: skip
+
+
 def final_of(**changed):
     """Return a plain final.json."""
     limit = {"value": 0.0547, "limit": 0.11667, "met": True}
@@ -127,7 +136,7 @@ def test_claims_and_engineering_checks_are_shown_where_they_are(tmp_path):
     """A judged claim has its verdict; a check of engineering.json can govern."""
     arguments = write_results(tmp_path)
     claim = {"id": "C1", "claim": "stiffer on all edges", "verdict": "holds", "designs": ["a"],
-             "numbers": {}, "uncertainty": {"largest_relative": {}, "method": "meshes"},
+             "numbers": NUMBERS, "uncertainty": {"largest_relative": {}, "method": "meshes"},
              "notes": ["a note"]}  # fmt: skip
     write_json(tmp_path / "claims.json", [claim])
     arguments["paths"]["claims"] = tmp_path / "claims.json"
@@ -136,7 +145,8 @@ def test_claims_and_engineering_checks_are_shown_where_they_are(tmp_path):
     write_json(tmp_path / "a/checks/engineering.json", {"checks": {"steel": check}})
     report.main(**arguments)
     text = arguments["report"].read_text(encoding="utf-8")
-    for words in ("C1: stiffer on all edges", "a note", "steel [kN/m]: 120, limit 100 (120 % of",
+    for words in ("C1: stiffer on all edges", "a note", "softer by one tenth",
+                  "a part", "over 42", "steel [kN/m]: 120, limit 100 (120 % of",
                   "combination S1, panel 7"):  # fmt: skip
         assert words in text, words
 

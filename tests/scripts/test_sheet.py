@@ -5,6 +5,7 @@ import shutil
 import subprocess
 import sys
 
+import numpy as np
 import pytest
 from PIL import Image
 
@@ -30,9 +31,11 @@ REACTIONS = {
 def run(folder, **options):
     """Write a small case and its sheet; return the text of the page and the data."""
     design = DESIGN | options.pop("design", {})
+    final = {"buckling_factor": {"S1": 3.0, "S2": 2.0, "D2": 4.0}} | options.pop("final", {})
+    comparison = REACTIONS | options.pop("comparison", {})
     paths, pictures = write_files(folder, **options)
-    write_json(paths["final"], final_of(buckling_factor={"S1": 3.0, "S2": 2.0, "D2": 4.0}))
-    write_json(paths["comparison"], REACTIONS)
+    write_json(paths["final"], {k: v for k, v in final_of(**final).items() if v is not None})
+    write_json(paths["comparison"], comparison)
     write_json(paths["mesh_convergence"], {
         "mesh_error": 0.0157, "buckling_mesh_error": None, "subdivisions": 4, "errors": {},
         "study": {"subdivisions": [4, 12], "reference": {"order": 7}, "combinations": {}},
@@ -60,6 +63,18 @@ def test_sheet_says_what_is_checked_and_where(tmp_path):
     assert data["checks"][0]["bar"] == pytest.approx(0.81 / 1.25)
     sums = [row for row in data["tables"]["Reactions"]["rows"] if row[1] == "sum"]
     assert [row[0] for row in sums] == ["S1", "S2", "D1", "D2"]
+
+
+def test_unstable_design_has_a_sheet(tmp_path):
+    """No displacement, no utilization, nothing to compare: what there is stands there."""
+    text, data = run(
+        tmp_path, utilization=None, move=lambda x: np.nan * x, final={
+            "verdict": "unstable", "reason": "a mechanism", "criteria": {}, "state": "mechanism",
+            "buckling_factor": {}, "displacement_combination": None, "displacement_place_m": None},
+        comparison={"pass": None, "reason": "nothing to compare", "quantities": {}},
+    )  # fmt: skip
+    assert "a mechanism" in text and "not possible" in text
+    assert data["checks"] == [] and "Reactions" not in data["tables"]
 
 
 def test_extents_are_those_of_the_sheet(tmp_path):

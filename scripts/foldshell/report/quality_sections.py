@@ -11,7 +11,7 @@ def name_quantity(key: str, unit: str = "-") -> str:
     """Return the words of a compared quantity, `S2 work_knm`, with its unit in brackets."""
     *combination, name = key.split(" ")
     about = entries(CombinationStudy).get(name)
-    words = about.words if about else name_key(name, unit)
+    words = about.words if about else name_key(name, "m" if unit == "mm" else unit)
     shown = "" if unit == "-" else f" [{SIGNS.get(unit, unit)}]"
     return " ".join([*combination, words]) + shown
 
@@ -38,9 +38,9 @@ def make_crosscheck(comparison: ComparisonRecord) -> Section:
     note = comparison.reason
     rows = [
         (
-            name_quantity(name, item.unit),
-            item.primary,
-            item.independent,
+            name_quantity(name, "mm" if item.unit == "m" else item.unit),
+            _show(item.primary, item.unit),
+            _show(item.independent, item.unit),
             _percent(item.relative_difference),
             _percent(item.tolerance),
             judge_met(item.passed),
@@ -53,6 +53,11 @@ def make_crosscheck(comparison: ComparisonRecord) -> Section:
         Box("good" if passed else "bad", f"{words}: {note}" if note else words),
         table=make_table(header, rows) if rows else None,
     )
+
+
+def _show(value: float, unit: str) -> float:
+    """Return a value in the unit that people read: displacements in mm."""
+    return 1e3 * value if unit == "m" else value
 
 
 def _percent(value: float | None) -> float | None:

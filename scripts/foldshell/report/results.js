@@ -80,6 +80,14 @@ function loadsOf(factors, arrays) { // kN on each panel
   return out;
 }
 
+function thinOut(many, places, vectors, arrays) { // of many panels every second one each way
+  if (!many) return [places, vectors];
+  const kept = [...arrays.panel_zigzag.keys()].filter((p) =>
+    arrays.panel_zigzag[p] % 2 === 0 && arrays.panel_strip[p] % 2 === 0);
+  const pick = (values) => Float32Array.from(kept.flatMap((p) => [...values.slice(3 * p, 3 * p + 3)]));
+  return [pick(places), pick(vectors)];
+}
+
 function showSections(panel, k, arrays) { // a table below the view: one combination, or all
   const box = byId("sections");
   box.hidden = panel < 0 || !facts.combinations.length;

@@ -111,8 +111,12 @@ class App {
     byId("reactions").disabled = single < 0;
     byId("loads").disabled = !factors;
     byId("loads-words").textContent = number >= 0 ? facts.cases[number][1] : "";
+    const many = arrays.panel_zigzag.length > 400;
+    if (number >= 0 || single >= 0) byId("loads-words").textContent
+      += many && byId("loads").checked ? " Arrows stand on every fourth panel." : "";
     this.renderer.setArrows("loads", factors && byId("loads").checked
-      ? makeArrows(this.middles, loadsOf(factors, arrays), longest("loads"), false) : []);
+      ? makeArrows(...thinOut(many, this.middles, loadsOf(factors, arrays), arrays),
+        longest("loads"), false) : []);
     let ends = [];
     if (single >= 0 && byId("reactions").checked) {
       const count = 3 * sizeOf("reaction")[1];
