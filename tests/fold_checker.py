@@ -2,7 +2,7 @@
 
 Shares no code with the library. Formulas are other ones than the library's where there is a
 choice: half-angle tangents for angles, signed volumes for intersections, lines across the shadow
-for the coverage, closest points region by region. The convention of the files is stated in `find_creases`.
+for the coverage, closest points region by region. `find_creases` states the files' convention.
 """
 
 from dataclasses import dataclass

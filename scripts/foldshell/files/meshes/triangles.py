@@ -26,7 +26,7 @@ def make_triangles(mesh: Mesh) -> Triangles:
     twice are left out, with a note. Raises `MeshError` where none remains.
     """
     vertices, place = _merge_equal(mesh.vertices)
-    triangles = _split(vertices, mesh.starts, place[mesh.corners])
+    triangles, _ = split_polygons(vertices, mesh.starts, place[mesh.corners])
     triangles = _merge_near(vertices, triangles)
     area = measure_double_areas(vertices, triangles)
     flat = ~(area > FLAT * area.max(initial=0.0))
@@ -73,22 +73,26 @@ def _merge_equal(vertices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     return vertices[np.sort(first)], rank[group]
 
 
-def _split(vertices: np.ndarray, starts: np.ndarray, corners: np.ndarray) -> np.ndarray:
-    """Triangles (F, 3) of all polygons, those of triangles and quadrilaterals at once."""
-    sizes = np.diff(starts)
-    parts = [corners[starts[:-1][sizes == 3][:, None] + np.arange(3)]]
-    quads = corners[starts[:-1][sizes == 4][:, None] + np.arange(4)]
-    parts.append(_split_quads(vertices, quads))
-    parts += [
-        cut_ears(vertices, corners[starts[k] : starts[k + 1]]) for k in np.flatnonzero(sizes > 4)
-    ]
+def split_polygons(
+    vertices: np.ndarray, starts: np.ndarray, corners: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Triangles (F, 3) of all polygons in their order, and the polygon (F,) of each.
+
+    Those of triangles and quadrilaterals at once, of others ear by ear. Triangles with a corner
+    twice are left out.
+    """
+    sizes, first = np.diff(starts), starts[:-1]
+    parts = [corners[first[sizes == 3][:, None] + np.arange(3)]]
+    parts.append(_split_quads(vertices, corners[first[sizes == 4][:, None] + np.arange(4)]))
     kinds = [np.flatnonzero(sizes == 3), np.repeat(np.flatnonzero(sizes == 4), 2)]
-    kinds += [
-        np.full(len(part), k) for part, k in zip(parts[2:], np.flatnonzero(sizes > 4), strict=True)
-    ]
-    triangles = np.concatenate(parts)[np.argsort(np.concatenate(kinds), kind="stable")]
+    for k in np.flatnonzero(sizes > 4):
+        parts.append(cut_ears(vertices, corners[starts[k] : starts[k + 1]]))
+        kinds.append(np.full(len(parts[-1]), k))
+    polygon = np.concatenate(kinds)
+    order = np.argsort(polygon, kind="stable")
+    triangles, polygon = np.concatenate(parts)[order], polygon[order]
     distinct = (triangles != np.roll(triangles, 1, axis=1)).all(axis=1)
-    return triangles[distinct]
+    return triangles[distinct], polygon[distinct]
 
 
 def _split_quads(vertices: np.ndarray, quads: np.ndarray) -> np.ndarray:
