@@ -47,8 +47,10 @@ def is_mesh_file(name: str | Path) -> bool:
     return Path(name).suffix.lower() in FORMATS
 
 
-def read_mesh(path: str | Path) -> Mesh:
+def read_mesh(path: str | Path, unit: str = "metres") -> Mesh:
     """Read the vertices and polygons of a mesh file, as they stand in it.
+
+    `unit` is the one that the file may declare (metres, millimetres, centimetres, inches, feet).
 
     Raises `InputError` that names the file, the place in it, what stands there and what is
     allowed. A library that crashes, or asks for more time or memory than a mesh needs, is such
@@ -63,7 +65,7 @@ def read_mesh(path: str | Path) -> Mesh:
         if not mesh.polygons:
             raise MeshError("holds no faces: 0 triangles, a mesh of faces is needed")
         check_mesh(mesh)
-        _check_unit(mesh.comments)
+        _check_unit(mesh.comments, unit)
     except MeshError as error:
         raise InputError(f"{path}: {error}") from None
     except (MemoryError, OverflowError):
@@ -109,17 +111,19 @@ def _check_magic(data: bytes, suffix: str) -> None:
             )
 
 
-_UNITS = {"millimet": "millimetres", "mm": "millimetres", "centimet": "centimetres",
-          "cm": "centimetres", "inch": "inches", "feet": "feet", "foot": "feet",
-          "ft": "feet"}  # fmt: skip
+_UNITS = {
+    "m": "metres", "metre": "metres", "meter": "metres", "mm": "millimetres",
+    "millimet": "millimetres", "cm": "centimetres", "centimet": "centimetres",
+    "inch": "inches", "feet": "feet", "foot": "feet", "ft": "feet",
+}  # fmt: skip
 _UNIT = re.compile(r"\bunits?\b\W*(?:in\b|are\b|is\b|of measure\b)?\W*([a-z]+)", re.IGNORECASE)
 
 
-def _check_unit(comments: str) -> None:
-    """Refuse a file that says itself that its coordinates are not in metres."""
+def _check_unit(comments: str, due: str) -> None:
+    """Refuse a file that says itself that its coordinates are in another unit."""
     for match in _UNIT.finditer(comments):
         word = match[1].casefold()
         unit = next((u for key, u in _UNITS.items() if word == key or
                      (len(key) > 3 and word.startswith(key))), None)  # fmt: skip
-        if unit:
-            raise MeshError(f"{match[0]!r}: the file declares {unit}: metres are allowed")
+        if unit and unit != due:
+            raise MeshError(f"{match[0]!r}: the file declares {unit}: {due} are allowed")

@@ -7,6 +7,7 @@ import numpy as np
 from foldshell.files.meshes.model import Mesh, MeshError, count
 
 NEAR = 1e-6  # of the mesh's size: border vertices that lie so near are one
+MOST_CORNERS = 60  # of a polygon that is cut the best way
 FLAT = 1e-14  # of the largest area: triangles below it are no triangles
 
 
@@ -78,7 +79,7 @@ def split_polygons(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Triangles (F, 3) of all polygons in their order, and the polygon (F,) of each.
 
-    Those of triangles and quadrilaterals at once, of others ear by ear. Triangles with a corner
+    Those of triangles and quadrilaterals at once. Triangles with a corner
     twice are left out.
     """
     sizes, first = np.diff(starts), starts[:-1]
@@ -86,7 +87,7 @@ def split_polygons(
     parts.append(_split_quads(vertices, corners[first[sizes == 4][:, None] + np.arange(4)]))
     kinds = [np.flatnonzero(sizes == 3), np.repeat(np.flatnonzero(sizes == 4), 2)]
     for k in np.flatnonzero(sizes > 4):
-        parts.append(cut_ears(vertices, corners[starts[k] : starts[k + 1]]))
+        parts.append(cut_polygon(vertices, corners[starts[k] : starts[k + 1]]))
         kinds.append(np.full(len(parts[-1]), k))
     polygon = np.concatenate(kinds)
     order = np.argsort(polygon, kind="stable")
@@ -113,22 +114,73 @@ def _split_quads(vertices: np.ndarray, quads: np.ndarray) -> np.ndarray:
     return np.stack([first, second], axis=1).reshape(-1, 3)
 
 
-def cut_ears(vertices: np.ndarray, polygon: np.ndarray) -> np.ndarray:
-    """Triangles (k - 2, 3) of one polygon (k,): ears cut off in its mean plane, the best first.
+def cut_polygon(vertices: np.ndarray, polygon: np.ndarray) -> np.ndarray:
+    """Triangles (k - 2, 3) of one polygon (k,) in its mean plane.
 
-    Coordinates in one unit of length; corners as numbers.
+    Of all ways to cut it along diagonals inside, the one whose largest angle is least, found by
+    dynamic programming over the polygon's chains; large polygons are cut ear by ear.
     """
-    points = vertices[polygon] - vertices[polygon].mean(axis=0)
+    plane = _lay_in_plane(vertices[polygon])
+    if len(polygon) > MOST_CORNERS:
+        return polygon[_cut_ears(plane)]
+    angle = _largest_angles(plane)
+    size = len(polygon)
+    cost = np.zeros((size, size))
+    choice = np.zeros((size, size), dtype=int)
+    for width in range(2, size):
+        for i in range(size - width):
+            j = i + width
+            between = np.arange(i + 1, j)
+            worst = np.maximum(np.maximum(cost[i, between], cost[between, j]), angle[i, between, j])
+            best = int(worst.argmin())
+            cost[i, j], choice[i, j] = worst[best], between[best]
+    if not np.isfinite(cost[0, -1]):
+        return polygon[_cut_ears(plane)]
+    triangles, open_chains = [], [(0, size - 1)]
+    while open_chains:
+        i, j = open_chains.pop()
+        if j - i > 1:
+            m = int(choice[i, j])
+            triangles.append([i, m, j])
+            open_chains += [(i, m), (m, j)]
+    return polygon[np.array(triangles)]
+
+
+def _lay_in_plane(corners: np.ndarray) -> np.ndarray:
+    """Corners (k, 2) of a polygon (k, 3) in its mean plane, counter-clockwise there."""
+    points = corners - corners.mean(axis=0)
     normal = np.cross(points, np.roll(points, -1, axis=0)).sum(axis=0)
-    axis = int(np.abs(normal).argmax())
-    plane = np.delete(points, axis, axis=1) * ([1, -1] if axis == 1 else [1, 1])
-    plane = plane if normal[axis] > 0 else plane[:, ::-1]
-    left, triangles = list(range(len(polygon))), []
+    axis = np.eye(3)[int(np.abs(normal).argmin())]
+    first = np.cross(axis, normal)
+    second = np.cross(normal, first)
+    first /= np.linalg.norm(first) or 1.0
+    second /= np.linalg.norm(second) or 1.0
+    return points @ np.stack([first, second], axis=1)
+
+
+def _largest_angles(plane: np.ndarray) -> np.ndarray:
+    """Largest angle (k, k, k) [rad] of the triangles i < m < j, infinite where they turn back."""
+    a, b, c = plane[:, None, None], plane[None, :, None], plane[None, None, :]
+
+    def angle(p: np.ndarray, q: np.ndarray, r: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        one, two = q - p, r - p
+        turn = one[..., 0] * two[..., 1] - one[..., 1] * two[..., 0]
+        return np.arctan2(turn, (one * two).sum(axis=-1)), turn
+
+    angles = [angle(a, b, c), angle(b, c, a), angle(c, a, b)]
+    largest = np.max([value for value, _ in angles], axis=0)
+    least = 1e-12 * np.ptp(plane, axis=0).max() ** 2
+    return np.where(angles[0][1] > least, largest, np.inf)
+
+
+def _cut_ears(plane: np.ndarray) -> np.ndarray:
+    """Triangles (k - 2, 3) of a polygon (k, 2): ears cut off, the best first."""
+    left, triangles = list(range(len(plane))), []
     while len(left) > 3:
         ear = max(range(len(left)), key=lambda k: _judge_ear(plane, left, k))
         triangles.append([left[ear - 1], left[ear], left[(ear + 1) % len(left)]])
         del left[ear]
-    return polygon[np.array([*triangles, left])]
+    return np.array([*triangles, left])
 
 
 def _judge_ear(plane: np.ndarray, left: list[int], k: int) -> float:
@@ -147,24 +199,30 @@ def _judge_ear(plane: np.ndarray, left: list[int], k: int) -> float:
 
 
 def _merge_near(vertices: np.ndarray, triangles: np.ndarray) -> np.ndarray:
-    """Let border vertices nearer than NEAR of the size be one: rows of the first of each group.
-
-    Points that near share a cell of one of eight grids, shifted by half a cell along the axes.
-    """
+    """Let border vertices nearer than NEAR of the size be one: rows of the first of each group."""
     edges, number = find_border(triangles) if len(triangles) else (triangles, triangles)
     border = np.unique(edges[number == 1]) if len(triangles) else np.empty(0, dtype=np.int64)
     if not len(border):
         return triangles
-    cell = 2 * NEAR * np.ptp(vertices[np.unique(triangles)], axis=0).max()
-    place = vertices[border] - vertices[border].min(axis=0)
-    label = np.arange(len(border))
-    for shift in np.ndindex(2, 2, 2):
-        key = np.floor(place / (cell or 1.0) + 0.5 * np.array(shift)).astype(np.int64)
-        _, inverse = np.unique(key, axis=0, return_inverse=True)
-        least = np.full(len(border), len(border))
-        np.minimum.at(least, inverse.ravel(), label)
-        label = least[inverse.ravel()]
+    size = np.ptp(vertices[np.unique(triangles)], axis=0).max()
+    label = group_near(vertices[border], NEAR * size)
     row = np.arange(len(vertices))
     row[border] = border[label]
     merged = row[triangles]
     return merged[(merged != np.roll(merged, 1, axis=1)).all(axis=1)]
+
+
+def group_near(points: np.ndarray, distance: float) -> np.ndarray:
+    """Row (N,) of the first of all points (N, 3) within about `distance` of each other.
+
+    Points that near share a cell of one of eight grids, shifted by half a cell along the axes.
+    """
+    place, cell = points - points.min(axis=0), 2 * distance or 1.0
+    label = np.arange(len(points))
+    for shift in np.ndindex(2, 2, 2):
+        key = np.floor(place / cell + 0.5 * np.array(shift)).astype(np.int64)
+        _, inverse = np.unique(key, axis=0, return_inverse=True)
+        least = np.full(len(points), len(points))
+        np.minimum.at(least, inverse.ravel(), label)
+        label = least[inverse.ravel()]
+    return label
