@@ -2,6 +2,7 @@
 
 from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
@@ -10,6 +11,7 @@ from foldshell.exchange.panels_of_mesh import Edges, classify, find_edges, find_
 from foldshell.files.errors import InputError
 from foldshell.files.whole import read_arrays, read_json
 from foldshell.loads.cases import make_load_cases
+from foldshell.settings.crosscheck import GOVERNING
 from foldshell.settings.design import Row
 from foldshell.settings.stage import StageSettings
 
@@ -53,7 +55,7 @@ def read_export_model(
         load_cases=make_load_cases(settings.loads, settings.material.unit_weight),
         combinations=settings.combinations.all,
         groups={name: tuple(getattr(settings.combinations, name)) for name in GROUPS},
-        compared={name: getattr(settings.crosscheck, name) for name in GROUPS},
+        compared=_choose_compared(settings, report),
         flat=folded["flat"],
         flat_facets=sheet,
         flat_note=_flat_note(design["fold_mode"]),
@@ -61,6 +63,24 @@ def read_export_model(
         verdict=str(report.get("verdict", "")),
         facts={key: report[key] for key in _SCALARS if key in report},
     )
+
+
+def _choose_compared(settings: StageSettings, report: Mapping[str, Any]) -> dict[str, str]:
+    """Return one combination of each group: of those that are named the first, else those of the
+    least buckling factor and of the largest displacement."""
+    factors = {name: value for name, value in report.get("buckling_factor", {}).items() if value}
+    own = [name for name in settings.combinations.strength if name in factors]
+    governing = {
+        "strength": min(own, key=factors.__getitem__, default=None),
+        "deflection": report.get("displacement_combination"),
+    }
+    chosen = {}
+    for group, found in governing.items():
+        named = getattr(settings.crosscheck, group)
+        known = list(getattr(settings.combinations, group))
+        first = found if found in known else known[0]
+        chosen[group] = first if list(named) == [GOVERNING] else named[0]
+    return chosen
 
 
 def _flat_note(fold_mode: str) -> str:

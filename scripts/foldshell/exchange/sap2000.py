@@ -144,14 +144,8 @@ def _loading(model: ExportModel) -> Iterator[tuple[str, list[Row]]]:
           for name in model.combinations),
         {"Case": buckling, "Type": "LinBuckling", "InitialCond": "Zero", "RunCase": "Yes"},
     ]  # fmt: skip
-    yield (
-        "CASE - STATIC 1 - LOAD ASSIGNMENTS",
-        [
-            {"Case": name, "LoadType": "Load pattern", "LoadName": case, "LoadSF": float(factor)}
-            for name, factors in model.combinations.items()
-            for case, factor in factors.items()
-        ],
-    )
+    rows = [_assign(name, factors) for name, factors in model.combinations.items()]
+    yield "CASE - STATIC 1 - LOAD ASSIGNMENTS", [row for case in rows for row in case]
     yield (
         "CASE - STATIC 2 - NONLINEAR LOAD APPLICATION",
         [
@@ -164,18 +158,16 @@ def _loading(model: ExportModel) -> Iterator[tuple[str, list[Row]]]:
         [{"Case": name, "GeoNonLin": "P-Delta"} for name in model.combinations],
     )
     yield "CASE - BUCKLING 1 - GENERAL", [{"Case": buckling, "NumBuckMode": 6, "EigenTol": 1e-9}]
-    yield (
-        "CASE - BUCKLING 2 - LOAD ASSIGNMENTS",
-        [
-            {
-                "Case": buckling,
-                "LoadType": "Load pattern",
-                "LoadName": case,
-                "LoadSF": float(factor),
-            }
-            for case, factor in model.combinations[model.compared["strength"]].items()
-        ],
-    )
+    own = model.combinations[model.compared["strength"]]
+    yield "CASE - BUCKLING 2 - LOAD ASSIGNMENTS", _assign(buckling, own)
+
+
+def _assign(name: str, factors: Mapping[str, float]) -> list[Row]:
+    """Return the rows that put load patterns with their factors into a load case."""
+    return [
+        {"Case": name, "LoadType": "Load pattern", "LoadName": case, "LoadSF": float(factor)}
+        for case, factor in factors.items()
+    ]
 
 
 def _supports(model: ExportModel, mesh: QuadMesh) -> Iterator[tuple[str, list[Row]]]:
