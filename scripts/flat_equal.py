@@ -5,9 +5,10 @@ from pathlib import Path
 from foldshell.claims.flat_equal import analyse_flat
 from foldshell.claims.measures import Layout
 from foldshell.engine.job import run_job
-from foldshell.files.whole import read_arrays
 from foldshell.records.analysis import read_analysis
+from foldshell.records.arrays import read_checked_arrays
 from foldshell.records.files import write_record
+from foldshell.records.sheet_arrays import FoldedArrays
 from foldshell.settings.analysed import ANALYSED
 from foldshell.settings.stage import Plain, read_stage
 
@@ -28,7 +29,8 @@ def main(
     `flat` names the flat design, `layout` its zigzag, strip and support; `settings` are the plain
     parameters of the stage `size`.
     """
-    volume, sheet = read_analysis(final_path).volume_m3, read_arrays(flat_path)
+    volume = read_analysis(final_path).volume_m3
+    sheet = read_checked_arrays(flat_path, FoldedArrays)
     given = read_stage(settings, *ANALYSED)
     found = analyse_flat(flat, sheet, Layout(*layout), volume, span_m, subdivisions, given)
     write_record(json_path, found)

@@ -5,7 +5,8 @@ from pathlib import Path
 
 from foldshell.engine.job import run_job
 from foldshell.files.errors import InputError
-from foldshell.files.whole import read_arrays
+from foldshell.records.arrays import read_checked_arrays
+from foldshell.records.sheet_arrays import FoldedArrays
 from foldshell.shell.edge_beams import make_edge_beam
 from foldshell.shell.mesh_files import (
     mesh_folded_sheet,
@@ -31,7 +32,7 @@ def main(
     `edge_beam` holds the depth and the thickness of its panels, m; one that pierces the sheet is
     refused.
     """
-    folded, beam = read_arrays(folded_path), make_edge_beam(*edge_beam)
+    folded, beam = read_checked_arrays(folded_path, FoldedArrays), make_edge_beam(*edge_beam)
     try:
         arrays = mesh_folded_sheet(folded, support, subdivisions, edge_beam=beam)
     except ValueError as error:

@@ -4,10 +4,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from foldshell.engine.job import run_job
-from foldshell.files.whole import read_arrays
 from foldshell.loads.cases import make_load_cases
 from foldshell.records.analysis import read_analysis
+from foldshell.records.analysis_arrays import AnalysisArrays
+from foldshell.records.arrays import read_checked_arrays, read_typed_arrays
 from foldshell.records.files import write_record
+from foldshell.records.sheet_arrays import FoldedArrays
 from foldshell.results.governing import choose_combinations
 from foldshell.results.mesh_convergence import make_record, study_mesh
 from foldshell.settings.analysed import LOADED
@@ -33,9 +35,9 @@ def main(
     compared = choose_combinations(given.crosscheck, given.combinations, report)
     names = [*compared["strength"], *compared["deflection"]]
     study = study_mesh(
-        read_arrays(folded_path),
+        read_checked_arrays(folded_path, FoldedArrays),
         support,
-        read_arrays(final_path)["thickness"],
+        read_typed_arrays(final_path, AnalysisArrays).thickness,
         subdivisions,
         given.material,
         make_load_cases(given.loads, given.material.unit_weight),

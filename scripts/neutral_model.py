@@ -4,8 +4,11 @@ from pathlib import Path
 
 from foldshell.engine.job import run_job
 from foldshell.exchange.neutral_model import make_neutral_model
-from foldshell.files.whole import read_arrays, write_json
+from foldshell.files.whole import write_json
 from foldshell.records.analysis import read_analysis
+from foldshell.records.analysis_arrays import AnalysisArrays
+from foldshell.records.arrays import read_checked_arrays, read_typed_arrays
+from foldshell.records.sheet_arrays import MeshArrays
 from foldshell.results.governing import choose_combinations, find_limits
 from foldshell.settings.analysed import LOADED
 from foldshell.settings.crosscheck import Crosscheck
@@ -22,7 +25,8 @@ def main(
     settings: Plain,
 ) -> None:
     """Write crosscheck/model.json from mesh.npz and the final state."""
-    mesh, thickness = read_arrays(mesh_path), read_arrays(final_path)["thickness"]
+    mesh = read_checked_arrays(mesh_path, MeshArrays)
+    thickness = read_typed_arrays(final_path, AnalysisArrays).thickness
     given = read_stage(settings, *LOADED, Crosscheck)
     report = read_analysis(report_path)
     compared = choose_combinations(given.crosscheck, given.combinations, report)

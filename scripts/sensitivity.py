@@ -5,9 +5,10 @@ from pathlib import Path
 from foldshell.claims.measures import Layout, measure_state
 from foldshell.claims.sensitivity import VARIANTS, change_settings
 from foldshell.engine.job import run_job
-from foldshell.files.whole import read_arrays
+from foldshell.records.arrays import read_checked_arrays
 from foldshell.records.files import write_record
 from foldshell.records.measures import VariantRecord
+from foldshell.records.sheet_arrays import MeshArrays
 from foldshell.settings.analysed import ANALYSED
 from foldshell.settings.stage import Plain, read_stage
 from foldshell.sizing.case import open_case
@@ -33,7 +34,7 @@ def main(
     changed = change_settings(given, variant)
     result = run_loop(open_case(mesh_path, changed), span_m, changed.sizing)
     measures = measure_state(
-        read_arrays(mesh_path),
+        read_checked_arrays(mesh_path, MeshArrays),
         Layout(*layout),
         result.analyses[-1],
         result.arrays,

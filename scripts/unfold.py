@@ -6,11 +6,12 @@ import numpy as np
 
 from foldshell.engine.job import run_job
 from foldshell.files.errors import InputError
-from foldshell.files.whole import read_arrays
 from foldshell.pattern.drawings import draw_pattern, write_dxf, write_svg
 from foldshell.pattern.fold_format import read_fold, write_fold
 from foldshell.pattern.sheet import FRAMES
 from foldshell.pattern.unfold import describe_true_sheet, name_flat_state
+from foldshell.records.arrays import read_typed_arrays
+from foldshell.records.sheet_arrays import FoldedArrays
 from foldshell.settings.exports import Drawings
 from foldshell.settings.stage import Plain, read_stage
 
@@ -34,12 +35,11 @@ def main(
     where panels can follow one. `settings` are those of stage `drawings`.
     """
     style = read_stage(settings, Drawings).drawings
-    sheet, folded = read_fold(pattern_path), read_arrays(folded_path)
-    count, due = len(folded["vertices"]), len(sheet.flat)
-    if count != due:
+    sheet, folded = read_fold(pattern_path), read_typed_arrays(folded_path, FoldedArrays)
+    if (count := len(folded.vertices)) != (due := len(sheet.flat)):
         raise InputError(f"{folded_path}: vertices: {count}: must be {due} as in {pattern_path}")
     parts = np.linspace(0.0, 1.0, frames + 1)[:-1]
-    true = describe_true_sheet(sheet, folded["flat"], folded["vertices"], parts)
+    true = describe_true_sheet(sheet, folded.flat, folded.vertices, parts)
     title = f"{design}, {name_flat_state(sheet.grid, folded, fold_mode)}"
     drawing = draw_pattern(true.flat, true.grid, style.scale, title)
     write_dxf(dxf_path, drawing, style.preset)

@@ -5,9 +5,10 @@ import math
 import numpy as np
 
 from foldshell.exchange.read_model import read_export_model
-from foldshell.files.whole import write_arrays, write_json
+from foldshell.files.whole import write_arrays
 from foldshell.pattern.miura import Miura
 from foldshell.pattern.sheet import make_miura_sheet
+from foldshell.records.analysis import write_analysis
 from foldshell.settings.analysed import LOADED
 from foldshell.settings.crosscheck import Crosscheck
 from foldshell.settings.make import make_settings
@@ -15,6 +16,7 @@ from foldshell.settings.stage import read_stage
 from foldshell.settings.stages import stage_parameters
 from foldshell.shell.edge_beams import EdgeBeam
 from foldshell.shell.mesh_files import mesh_folded_sheet, write_mesh
+from record_cases import make_analysis
 
 ZIGZAGS, STRIPS = 5, 6
 PANELS = (ZIGZAGS - 1) * (STRIPS - 1)
@@ -37,6 +39,7 @@ def write_export_case(folder, bent=0.0, beam=False, thickness=None):
     vertices[:, 2] += bent * np.sin(3.0 * np.arange(len(vertices)))
     folded = {"vertices": vertices, "quads": grid.quads, "facets": grid.facets, "flat": sheet.flat}
     folded |= {"zigzag": grid.zigzag_index, "strip": grid.strip_index}
+    folded |= {"planarity": np.zeros(PANELS), "strain": np.zeros(2 * PANELS)}
     write_arrays(folder / "folded.npz", folded)
     mesh = mesh_folded_sheet(folded, "strip", 1, edge_beam=BEAM if beam else None)
     write_mesh(folder / "mesh.npz", mesh)
@@ -50,7 +53,8 @@ def write_export_case(folder, bent=0.0, beam=False, thickness=None):
     write_arrays(folder / "final.npz", final)
     number = 1 + np.arange(PANELS) * 3 // PANELS
     write_arrays(folder / "classes.npz", {"panel_class": number, "thickness": 0.06 * number})
-    write_json(folder / "final.json", {"verdict": "converged", "reason": "all criteria are met"})
+    record = make_analysis(verdict="converged", reason="all criteria are met")
+    write_analysis(folder / "final.json", record)
     roles = {"mesh": "npz", "folded": "npz", "final": "npz", "classes": "npz"}
     paths = {role: folder / f"{role}.{kind}" for role, kind in roles.items()}
     return {**paths, "report": folder / "final.json"}

@@ -27,6 +27,7 @@ def sheet_arrays(folded=True):
         "vertices": vertices,
         "quads": grid.quads,
         "facets": grid.facets,
+        "flat": sheet.flat,
         "zigzag": grid.zigzag_index,
         "strip": grid.strip_index,
         "planarity": measure_planarity(vertices, grid.quads),
@@ -76,7 +77,7 @@ def write_case(folder, folded=True, utilization=0.4, move=None, thickness=None, 
 def free_count(mesh, folder):
     """Return how many degrees of freedom are not supported."""
     _, arrays = read_mesh(folder / "mesh.npz")
-    return mesh.dof_count - 3 * len(arrays["supported_nodes"])
+    return mesh.dof_count - 3 * len(arrays.supported_nodes)
 
 
 def make_state(folder, **options):

@@ -34,6 +34,7 @@ def corrugated_sheet() -> dict[str, np.ndarray]:
     facets = np.stack([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]], axis=1).reshape(-1, 3)
     return {
         "vertices": vertices, "quads": quads, "facets": facets, "zigzag": zigzag, "strip": strip,
+        "flat": vertices * [1, 1, 0], "planarity": np.zeros(PANELS), "strain": np.zeros(2 * PANELS),
     }  # fmt: skip
 
 

@@ -22,6 +22,7 @@ from foldshell.pattern.fold_format import write_fold
 from foldshell.pattern.sheet import Sheet
 from foldshell.records.analysis import AnalysisRecord
 from foldshell.records.analysis_arrays import AnalysisArrays
+from foldshell.records.arrays import list_arrays
 from foldshell.settings.design import DesignColumns
 from foldshell.settings.field import list_settings
 from foldshell.settings.fold import Pattern
@@ -114,7 +115,7 @@ def mesh_shell(
     """Mesh a folded sheet, pin it along zig-zag, strip or all borders, and hang an edge beam of a
     depth and a thickness (m) from free ones. Raises `ValueError` for a mechanism."""
     settings = settings or Settings()
-    arrays = folded_arrays(folded.sheet, folded.result)
+    arrays = list_arrays(folded_arrays(folded.sheet, folded.result))
     beam = make_edge_beam(*edge_beam)
     mesh = mesh_folded_sheet(arrays, support, settings.analysis.subdivisions, edge_beam=beam)
     case = make_case(mesh, settings)

@@ -85,7 +85,7 @@ def test_edge_beam_panels_are_reported_and_not_sized(folder):
     report = read_json(folder / "sizing/final.json")
     arrays = read_arrays(folder / "sizing/final.npz")
     shell, mesh_arrays = read_mesh(folder / "mesh.npz")
-    corner = mesh_arrays["vertices"][mesh_arrays["facets"]]
+    corner = mesh_arrays.vertices[mesh_arrays.facets]
     area = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
     area = np.linalg.norm(area, axis=1) / 2
     sheet, beam = np.split(area, [2 * PANELS])

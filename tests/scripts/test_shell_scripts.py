@@ -37,7 +37,8 @@ def small_sheet() -> dict[str, np.ndarray]:
     quads = np.stack([number[:-1, :-1], number[:-1, 1:], number[1:, 1:], number[1:, :-1]], -1)
     quads = quads.reshape(-1, 4)
     facets = quads[:, [0, 1, 2, 0, 2, 3]].reshape(-1, 3)
-    return dict(vertices=vertices, quads=quads, facets=facets, zigzag=zigzag, strip=strip)
+    more = {"flat": vertices, "planarity": np.zeros(len(quads)), "strain": np.zeros(len(facets))}
+    return dict(vertices=vertices, quads=quads, facets=facets, zigzag=zigzag, strip=strip) | more
 
 
 def run_mesh(folder, sheet, support="zigzag", subdivisions=2, **options):
@@ -90,10 +91,10 @@ def test_mesh_holds_every_panel_and_pins_every_node_of_the_zigzag_edges(folder):
     found, arrays = read_mesh(folder / "mesh.npz")
     assert found.subdivisions == 2
     assert np.bincount(found.panel).tolist() == [2] * 9
-    on_edge = np.isin(arrays["support_pairs"], [0, 1, 2, 3, 12, 13, 14, 15]).all()
-    assert on_edge and len(arrays["support_pairs"]) == 6
+    on_edge = np.isin(arrays.support_pairs, [0, 1, 2, 3, 12, 13, 14, 15]).all()
+    assert on_edge and len(arrays.support_pairs) == 6
     per_edge = found.pair_nodes.shape[1] - 2
-    assert len(arrays["supported_nodes"]) == 8 + 6 * per_edge
+    assert len(arrays.supported_nodes) == 8 + 6 * per_edge
 
 
 def test_mesh_vtu_has_n_by_n_cells_a_facet_and_their_panels(folder):

@@ -9,15 +9,18 @@ import numpy as np
 
 from export_cases import stage_settings
 from foldshell.exchange.read_model import read_export_model
-from foldshell.files.whole import read_arrays, write_arrays, write_json
+from foldshell.files.whole import read_arrays, write_arrays
 from foldshell.folding.files import folded_arrays
 from foldshell.folding.fold import fold_sheet
 from foldshell.folding.targets import make_target, measure_turning
 from foldshell.pattern.design import design_sheet
 from foldshell.pattern.fold_format import write_fold
+from foldshell.records.analysis import write_analysis
+from foldshell.records.arrays import list_arrays
 from foldshell.settings.fold import Fold
 from foldshell.shell.edge_beams import EdgeBeam
 from foldshell.shell.mesh_files import mesh_folded_sheet, write_mesh
+from record_cases import make_analysis
 
 SURFACES, SUPPORTS = ("paraboloid", "hypar", "arch"), ("all", "zigzag", "strip")
 ELASTIC = tuple(f"{surface}-{support}" for surface in SURFACES for support in SUPPORTS)
@@ -32,7 +35,7 @@ def fold_design(surface, mode):
     target = make_target(surface, 28.0, 10.0)
     turning = measure_turning(target)
     sheet = design_sheet("miura", target.section_lengths(), 15, 16, 60.0, 9, turning)
-    return sheet, folded_arrays(sheet, fold_sheet(sheet, target, mode, Fold()))
+    return sheet, list_arrays(folded_arrays(sheet, fold_sheet(sheet, target, mode, Fold())))
 
 
 @functools.cache
@@ -58,7 +61,7 @@ def export_design(name):
     write_arrays(
         folder / "classes.npz", {"panel_class": 1 + number, "thickness": final["thickness"]}
     )
-    write_json(folder / "final.json", {"verdict": "converged"})
+    write_analysis(folder / "final.json", make_analysis(verdict="converged"))
     paths = {role: folder / f"{role}.npz" for role in ("mesh", "folded", "final", "classes")}
     row = {"design": name, "surface": surface, "span_m": 28.0, "height_m": 10.0,
            "support": support, "fold_mode": mode}  # fmt: skip

@@ -7,9 +7,9 @@ import numpy as np
 
 from foldshell.claims.design_result import DesignResult
 from foldshell.claims.measures import Layout, measure_depth, measure_state
-from foldshell.files.whole import read_arrays
 from foldshell.pattern.angles import flat_foldability_residual
 from foldshell.pattern.grid import build_grid
+from foldshell.records.arrays import read_checked_arrays, read_typed_arrays
 from foldshell.records.comparison import read_comparison
 from foldshell.records.design_row import DesignRow
 from foldshell.records.files import read_record
@@ -17,6 +17,7 @@ from foldshell.records.iteration import read_iteration
 from foldshell.records.measures import Geometry, VariantRecord
 from foldshell.records.mesh_convergence import MeshConvergenceRecord
 from foldshell.records.quality import QualityRecord
+from foldshell.records.sheet_arrays import FoldedArrays, MeshArrays
 from foldshell.settings.stage import StageSettings
 
 Errors = dict[str, tuple[float | None, float | None]]
@@ -29,15 +30,15 @@ def make_layout(row: DesignRow) -> Layout:
 
 def read_fold(row: DesignRow, folder: str | Path) -> DesignResult:
     """Read what the folding alone says of a design; raises `InputError` for a damaged file."""
-    folded = read_arrays(Path(folder, "folded/folded.npz"))
+    folded = read_typed_arrays(Path(folder, "folded/folded.npz"), FoldedArrays)
     quality = read_record(Path(folder, "folded/quality.json"), QualityRecord)
     values = Geometry(edge_strain_rms=quality.edge_strain_rms)
     if row.pattern == "miura":
         size = row.zigzag, row.strip
-        residual = flat_foldability_residual(folded["vertices"], build_grid(*size))
+        residual = flat_foldability_residual(folded.vertices, build_grid(*size))
         values = replace(
             values,
-            depth=measure_depth(folded["vertices"], *size),
+            depth=measure_depth(folded.vertices, *size),
             flat_foldability_max_rad=float(np.abs(residual).max()),
         )
     return DesignResult(row, values, quality=quality)
@@ -49,7 +50,7 @@ def read_design_result(
     """Read the final state of a design, and its state at the start, of one thickness."""
     folder = Path(folder)
     fold = read_fold(row, folder)
-    mesh = read_arrays(folder / "shell/mesh.npz")
+    mesh = read_checked_arrays(folder / "shell/mesh.npz", MeshArrays)
     last, first = (
         read_iteration(folder / f"sizing/{name}.json") for name in ("final", "00/analysis")
     )
@@ -62,7 +63,7 @@ def read_design_result(
     )
     used = last[1].utilization_panel_mean
     if used is not None and fold.values.depth is not None:
-        planarity = read_arrays(folder / "folded/folded.npz")["planarity"]
+        planarity = read_typed_arrays(folder / "folded/folded.npz", FoldedArrays).planarity
         final = replace(final, panels=np.stack([planarity, used]))
     return replace(final, warning=last[0].warning), start
 

@@ -100,7 +100,7 @@ def point_fields(state: DesignState) -> dict[str, np.ndarray]:
     Each has the unit that the file's legend states.
     """
     supported = np.zeros(len(state.cells.nodes), dtype=np.int32)
-    supported[edge_polyline_nodes(state.cells, state.shell["support_pairs"])] = 1
+    supported[edge_polyline_nodes(state.cells, state.shell.support_pairs)] = 1
     fields = {"supported": supported}
     if not state.usable:
         return fields

@@ -2,15 +2,21 @@
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from foldshell.exchange.model import Crease, ExportModel, Panel, Support, Target
 from foldshell.exchange.panels_of_mesh import Edges, classify, find_edges, find_loops, fit_plane
 from foldshell.files.errors import InputError
-from foldshell.files.whole import read_arrays, read_json
+from foldshell.files.whole import Json, read_json
 from foldshell.loads.cases import make_load_cases
+from foldshell.records.analysis import AnalysisRecord
+from foldshell.records.analysis_arrays import AnalysisArrays, ClassesArrays
+from foldshell.records.arrays import read_typed_arrays
+from foldshell.records.iteration import read_iteration
+from foldshell.records.plain import to_plain
+from foldshell.records.sheet_arrays import FoldedArrays, MeshArrays
+from foldshell.results.governing import choose_combinations
 from foldshell.settings.crosscheck import GOVERNING
 from foldshell.settings.design import Row
 from foldshell.settings.stage import StageSettings
@@ -30,19 +36,20 @@ def read_export_model(
 
     Raises `InputError` where a design is not sized.
     """
-    mesh, folded = read_arrays(paths["mesh"]), read_arrays(paths["folded"])
-    final, report = read_arrays(paths["final"]), read_json(paths["report"])
-    if "utilization_panel_mean" not in final:
+    mesh = read_typed_arrays(paths["mesh"], MeshArrays)
+    folded = read_typed_arrays(paths["folded"], FoldedArrays)
+    report, final = read_iteration(paths["report"], paths["final"])
+    if final.utilization_panel_mean is None:
         raise InputError(
-            f"{design['design']}: exports: {report.get('verdict', 'no verdict')} "
-            f"({report.get('reason', 'no reason')}): only a design with results can be exported"
+            f"{design['design']}: exports: {report.verdict} ({report.reason}): only a design with "
+            "results can be exported"
         )
-    classes = read_arrays(paths["classes"]) if paths.get("classes") else {}
+    given = paths.get("classes")
+    classes = read_typed_arrays(given, ClassesArrays) if given else ClassesArrays()
     checks = read_json(paths["checks"]) if paths.get("checks") else {}
-    vertices, facets, facet_panel = (mesh[name] for name in ("vertices", "facets", "facet_panel"))
-    edges = find_edges(vertices, facets)
+    vertices, facets, facet_panel = mesh.vertices, mesh.facets, mesh.facet_panel
+    edges, plain = find_edges(vertices, facets), to_plain(report)
     panels = _make_panels(mesh, final, classes, checks, edges)
-    sheet = folded["facets"]
     return ExportModel(
         design=design["design"],
         vertices=vertices,
@@ -50,37 +57,30 @@ def read_export_model(
         facet_panel=facet_panel,
         panels=panels,
         creases=_make_creases(edges, facet_panel),
-        supports=(Support(f"support {design['support']}", mesh["support_pairs"]),),
+        supports=(Support(f"support {design['support']}", mesh.support_pairs),),
         material=settings.material,
         load_cases=make_load_cases(settings.loads, settings.material.unit_weight),
         combinations=settings.combinations.all,
         groups={name: tuple(getattr(settings.combinations, name)) for name in GROUPS},
         compared=_choose_compared(settings, report),
-        flat=folded["flat"],
-        flat_facets=sheet,
+        flat=folded.flat,
+        flat_facets=folded.facets,
         flat_note=_flat_note(design["fold_mode"]),
         target=Target(design["surface"], design["span_m"], design["height_m"]),
-        verdict=str(report.get("verdict", "")),
-        facts={key: report[key] for key in _SCALARS if key in report},
+        verdict=report.verdict,
+        facts={key: plain[key] for key in _SCALARS if key in plain},
     )
 
 
-def _choose_compared(settings: StageSettings, report: Mapping[str, Any]) -> dict[str, str]:
+def _choose_compared(settings: StageSettings, report: AnalysisRecord) -> dict[str, str]:
     """Return one combination of each group: of those that are named the first, else those of the
     least buckling factor and of the largest displacement."""
-    factors = {name: value for name, value in report.get("buckling_factor", {}).items() if value}
-    own = [name for name in settings.combinations.strength if name in factors]
-    governing = {
-        "strength": min(own, key=factors.__getitem__, default=None),
-        "deflection": report.get("displacement_combination"),
+    chosen = choose_combinations(settings.crosscheck, settings.combinations, report)
+    named = {group: list(getattr(settings.crosscheck, group)) for group in GROUPS}
+    return {
+        group: names[-1] if named[group] == [GOVERNING] else names[0]
+        for group, names in chosen.items()
     }
-    chosen = {}
-    for group, found in governing.items():
-        named = getattr(settings.crosscheck, group)
-        known = list(getattr(settings.combinations, group))
-        first = found if found in known else known[0]
-        chosen[group] = first if list(named) == [GOVERNING] else named[0]
-    return chosen
 
 
 def _flat_note(fold_mode: str) -> str:
@@ -89,11 +89,13 @@ def _flat_note(fold_mode: str) -> str:
     return f"the given pattern (mode {fold_mode})"
 
 
-def _make_panels(mesh, final, classes, checks, edges: Edges) -> tuple[Panel, ...]:
-    vertices, facet_panel = mesh["vertices"], mesh["facet_panel"]
-    fixed = mesh.get("fixed_thickness", np.empty(0))
-    thickness = np.concatenate([final["thickness"], fixed])
-    sized, loops = len(final["thickness"]), find_loops(edges, facet_panel)
+def _make_panels(
+    mesh: MeshArrays, final: AnalysisArrays, classes: ClassesArrays, checks: Json, edges: Edges
+) -> tuple[Panel, ...]:
+    vertices, facet_panel = mesh.vertices, mesh.facet_panel
+    fixed = np.empty(0) if mesh.fixed_thickness is None else mesh.fixed_thickness
+    thickness = np.concatenate([final.thickness, fixed])
+    sized, loops = len(final.thickness), find_loops(edges, facet_panel)
     own = np.split(np.argsort(facet_panel, kind="stable"), np.cumsum(np.bincount(facet_panel))[:-1])
     both = (edges.right >= 0) & (facet_panel[edges.left] == facet_panel[edges.right])
     inner: dict[int, list[int]] = {}
@@ -103,7 +105,7 @@ def _make_panels(mesh, final, classes, checks, edges: Edges) -> tuple[Panel, ...
     panels = []
     for number, corners in sorted(loops.items()):
         rows = inner.get(number, [])
-        graded = number < sized and "panel_class" in classes
+        graded = number < sized and classes.panel_class is not None
         values = {name: float(column[number]) for name, column in columns.items()}
         panels.append(
             Panel(
@@ -115,23 +117,26 @@ def _make_panels(mesh, final, classes, checks, edges: Edges) -> tuple[Panel, ...
                 flatness=fit_plane(vertices[corners])[2],
                 thickness=float(thickness[number]),
                 sized=number < sized,
-                thickness_class=int(classes["panel_class"][number]) if graded else 0,
-                class_thickness=float(classes["thickness"][number]) if graded else None,
+                thickness_class=int(classes.panel_class[number]) if graded else 0,
+                class_thickness=float(classes.thickness[number]) if graded else None,
                 values={name: value for name, value in values.items() if np.isfinite(value)},
             )
         )
     return tuple(panels)
 
 
-def _panel_values(final, checks, sized: int, count: int) -> dict[str, np.ndarray]:
+def _panel_values(
+    final: AnalysisArrays, checks: Json, sized: int, count: int
+) -> dict[str, np.ndarray]:
     """Return results by name, (P + B,), nan where a panel has none."""
     columns = {}
-    for name in ("utilization_panel_mean", "utilization_element_max"):
+    for measure in ("panel_mean", "element_max"):
         values = np.full(count, np.nan)
-        values[:sized] = final[name]
-        if f"edge_beam_{name}" in final:
-            values[sized:] = final[f"edge_beam_{name}"]
-        columns[name] = values
+        values[:sized] = final.utilization(measure)
+        beam = final.edge_beam_utilization(measure)
+        if beam is not None:
+            values[sized:] = beam
+        columns[f"utilization_{measure}"] = values
     for name, values in (checks.get("panels") or {}).items():
         numbers = np.array([np.nan if v is None or isinstance(v, str) else v for v in values])
         if numbers.shape == (sized,):

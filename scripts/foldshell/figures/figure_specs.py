@@ -103,8 +103,8 @@ def crease_lines(view: DesignView, points: np.ndarray) -> tuple[tuple[Lines, ...
 def support_marks(view: DesignView) -> tuple[np.ndarray, float]:
     """Return the vertices on supported edges (S, 3) m, and the size of their marks, m."""
     state = view.state
-    vertices = np.unique(state.shell["support_pairs"])
-    return state.shell["vertices"][vertices], view.size / 60
+    vertices = np.unique(state.shell.support_pairs)
+    return state.shell.vertices[vertices], view.size / 60
 
 
 def lines_before(view: DesignView) -> Lines:
@@ -118,14 +118,14 @@ def lines_before(view: DesignView) -> Lines:
 
 def edge_lines(view: DesignView) -> tuple[tuple[Lines, ...], tuple[Key, ...]]:
     """Return zig-zag edges and strip edges in colours of their own, wide, and their keys."""
-    folded, vertices = view.state.folded, view.state.shell["vertices"]
+    folded, vertices = view.state.folded, view.state.shell.vertices
     lines, keys = [], []
     for kind, other, words, colour in (("zigzag", "strip", "zig-zag edge", ZIGZAG),
                                        ("strip", "zigzag", "strip edge", STRIP)):  # fmt: skip
-        index = folded[kind]
+        index = getattr(folded, kind)
         for border in (index.min(), index.max()):
             nodes = np.flatnonzero(index == border)
-            nodes = nodes[np.argsort(folded[other][nodes])]
+            nodes = nodes[np.argsort(getattr(folded, other)[nodes])]
             lines.append(Lines(vertices[nodes][None], colour, EDGE_WIDTH, 1.2 * LIFT))
         keys.append(Key("solid", words, colour))
     return tuple(lines), tuple(keys)

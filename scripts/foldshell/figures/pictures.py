@@ -221,7 +221,7 @@ def specify_displacement(view: DesignView) -> FigureSpec:
 def specify_planarity(view: DesignView) -> FigureSpec:
     """Panels coloured by the distance between their diagonals (Fig. 9)."""
     state = view.state
-    values = 100 * state.folded["planarity"]
+    values = 100 * state.folded.planarity
     facts = f"at most {values.max():.2f} %, mean {values.mean():.2f} % (0: panel is planar)"
     values = np.append(values, np.zeros_like(state.edge_beam_thickness))
     quantity = "distance of diagonals / their mean length [%]"
@@ -232,9 +232,9 @@ def specify_planarity(view: DesignView) -> FigureSpec:
 def specify_strain(view: DesignView) -> FigureSpec:
     """Facets coloured by the largest strain of their sides in folding: what the paper must give."""
     state = view.state
-    if "strain" not in state.folded:
+    if state.folded.strain is None:
         return specify_nothing(view, "Folding strain", "no strain of the folding")
-    values = 100 * state.folded["strain"]
+    values = 100 * state.folded.strain
     facts = f"at most {values.max():.2f} %, mean {values.mean():.2f} % (0: sides keep their length)"
     values = np.append(values, np.zeros(2 * len(state.edge_beam_thickness)))
     quantity = "largest change of a facet's sides / flat length [%]"

@@ -78,7 +78,7 @@ def add_fields(design: StudyDesign, state: DesignState) -> StudyDesign:
     if state.utilization is None:
         return design
     share = utilization_shares(state.utilization, cell_area(state))
-    panels = np.stack([state.folded["planarity"], state.final.utilization_panel_mean])
+    panels = np.stack([state.folded.planarity, state.final.utilization_panel_mean])
     return replace(design, share=share, panels=panels)
 
 

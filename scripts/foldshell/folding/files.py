@@ -5,12 +5,14 @@ from pathlib import Path
 
 import numpy as np
 
-from foldshell.files.whole import atomic_path, write_arrays
+from foldshell.files.whole import atomic_path
 from foldshell.folding.fold import FoldResult
 from foldshell.folding.quality import measure_planarity, measure_strain
 from foldshell.pattern.sheet import Sheet
+from foldshell.records.arrays import write_typed_arrays
 from foldshell.records.files import write_record
 from foldshell.records.quality import QualityRecord
+from foldshell.records.sheet_arrays import FoldedArrays
 
 
 def describe_quality(result: FoldResult) -> QualityRecord:
@@ -30,25 +32,24 @@ def write_quality(path: str | Path, result: FoldResult) -> None:
     write_record(path, describe_quality(result))
 
 
-def folded_arrays(sheet: Sheet, result: FoldResult) -> dict[str, np.ndarray]:
-    """Return the contents of folded.npz: vertices and flat state (V, 3) m, quads (P, 4), facets
-    (F, 3), zigzag and strip index (V,), planarity (P,) and strain (F, 3)."""
+def folded_arrays(sheet: Sheet, result: FoldResult) -> FoldedArrays:
+    """Return the contents of folded.npz."""
     grid, shape = sheet.grid, result.shape
-    return {
-        "vertices": shape.vertices,
-        "quads": grid.quads,
-        "facets": grid.facets,
-        "zigzag": grid.zigzag_index,
-        "strip": grid.strip_index,
-        "flat": shape.flat,
-        "planarity": measure_planarity(shape.vertices, grid.quads),
-        "strain": measure_strain(shape.vertices, shape.flat, grid.facets),
-    }
+    return FoldedArrays(
+        vertices=shape.vertices,
+        quads=grid.quads,
+        facets=grid.facets,
+        zigzag=grid.zigzag_index,
+        strip=grid.strip_index,
+        flat=shape.flat,
+        planarity=measure_planarity(shape.vertices, grid.quads),
+        strain=measure_strain(shape.vertices, shape.flat, grid.facets),
+    )
 
 
 def write_folded(path: str | Path, sheet: Sheet, result: FoldResult) -> None:
     """Write folded.npz."""
-    write_arrays(path, folded_arrays(sheet, result))
+    write_typed_arrays(path, folded_arrays(sheet, result))
 
 
 def write_folded_vtu(path: str | Path, sheet: Sheet, result: FoldResult) -> None:

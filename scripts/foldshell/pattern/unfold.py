@@ -4,7 +4,6 @@ Panels are laid one after the other across shared edges; how far apart the copie
 then lie is the closure, 0 for a developable sheet (and, folding, for a rigidly foldable one).
 """
 
-from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -12,6 +11,7 @@ import numpy as np
 from foldshell.pattern.angles import measure_folds
 from foldshell.pattern.grid import Grid, find_outline
 from foldshell.pattern.sheet import Frame, Sheet
+from foldshell.records.sheet_arrays import FoldedArrays
 
 RIGID = 1e-9  # gap between panels, of the sheet's size, up to which a path is called rigid
 
@@ -267,16 +267,13 @@ def describe_true_sheet(
     )
 
 
-def name_flat_state(grid: Grid, folded: Mapping[str, np.ndarray], fold_mode: str) -> str:
-    """Name what the flat state of folded.npz is: unfolded, or the given pattern and its stretch.
-
-    `folded` holds the arrays of folded.npz: flat and vertices (V, 3) m.
-    """
+def name_flat_state(grid: Grid, folded: FoldedArrays, fold_mode: str) -> str:
+    """Name what the flat state of folded.npz is: unfolded, or the given pattern and its stretch."""
     if fold_mode in ("exact", "rigid"):
         return "unfolded from the folded shape"
     flat, shape = (
-        np.linalg.norm(np.diff(folded[name][grid.edges], axis=1)[:, 0], axis=1)
-        for name in ("flat", "vertices")
+        np.linalg.norm(np.diff(state[grid.edges], axis=1)[:, 0], axis=1)
+        for state in (folded.flat, folded.vertices)
     )
     stretch = np.abs(shape / flat - 1).max()
     return f"the given pattern (mode {fold_mode}: its sides stretch by up to {100 * stretch:.2g} %)"

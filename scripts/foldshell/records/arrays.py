@@ -65,6 +65,14 @@ def read_typed_arrays(path: str | Path, kind: type[Arrays]) -> Arrays:
         raise InputError(f"{path}: {error}: {REMEDY}") from None
 
 
+def read_checked_arrays(path: str | Path, kind: type) -> dict[str, np.ndarray]:
+    """Read an .npz file that is to hold the arrays of a class; return them by name.
+
+    Axes and units are those that the class states. Raises `InputError` as `read_typed_arrays`.
+    """
+    return list_arrays(read_typed_arrays(path, kind))
+
+
 def make_typed_arrays(kind: type[Arrays], found: Mapping[str, np.ndarray]) -> Arrays:
     """Return named arrays as those of a class.
 

@@ -17,6 +17,7 @@ from foldshell.records.kinematics import KinematicsRecord
 from foldshell.records.measures import FlatEqualRecord, SensitivityRow, VariantRecord
 from foldshell.records.mesh_convergence import MeshConvergenceRecord, MeshStudy
 from foldshell.records.quality import QualityRecord
+from foldshell.records.sheet_arrays import FoldedArrays, MeshArrays
 from foldshell.records.summary import SummaryRow
 from foldshell.records.timings import TimingRow
 from foldshell.records.written import WrittenRecord
@@ -64,6 +65,8 @@ FILES = (
     ResultFile("timings", "timings.csv", TimingRow, "one row per rule, the longest first", True),
 )  # fmt: skip
 ARRAYS = (
+    ResultFile("folded", f"{DESIGN}/folded/folded.npz", FoldedArrays, "the folded sheet"),
+    ResultFile("mesh", f"{DESIGN}/shell/mesh.npz", MeshArrays, "the shell mesh and its supports"),
     ResultFile("analysis", f"{LOOP}/NN/analysis.npz, {LOOP}/final.npz", AnalysisArrays,
                "arrays of an analysis"),
     ResultFile("memory", f"{LOOP}/NN/memory.npz", StepMemory, "what a step leaves to the next"),

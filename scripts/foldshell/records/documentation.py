@@ -32,7 +32,10 @@ def write_documentation() -> str:
 
 AXES = """Axes: P sized panels, B panels of an edge beam, E elements, K result cells of an element,
 C combinations (strength first), N nodes, D unknowns of the shell model, F those that are free,
-M linearised constraints, Q is P or 0. Names in parentheses may be missing.
+M linearised constraints, Q is P or 0; of the sheet V vertices, T facets, of its mesh L nodes of an
+element, G edges of facets, J nodes along one, S supported edges of facets, H supported nodes (in
+mesh.npz vertices, facets and panels of an edge beam stand after those of the sheet). Names in
+parentheses may be missing.
 """
 
 

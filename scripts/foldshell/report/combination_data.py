@@ -132,8 +132,8 @@ def sum_cases(state: DesignState, settings: StageSettings) -> np.ndarray:
 def gather_reactions(state: DesignState, reactions: Reactions) -> tuple[np.ndarray, np.ndarray]:
     """Return the supported vertices (S,) and at each the sum (c, S, 3) kN of the reactions of the
     nodes that are nearest to it."""
-    vertices = np.unique(state.shell["support_pairs"])
-    away = state.mesh.nodes[reactions.node][:, None] - state.shell["vertices"][vertices]
+    vertices = np.unique(state.shell.support_pairs)
+    away = state.mesh.nodes[reactions.node][:, None] - state.shell.vertices[vertices]
     nearest = np.linalg.norm(away, axis=2).argmin(axis=1)
     sums = np.zeros((len(vertices), *reactions.force.shape[1:]))
     np.add.at(sums, nearest, reactions.force)

@@ -42,7 +42,7 @@ def find_marks(view: DesignView, final: AnalysisRecord) -> list[Mark]:
     state, marks = view.state, []
     if state.utilization is not None:
         panel = int(np.argmax(state.final.utilization_panel_mean))
-        middle = state.folded["vertices"][state.folded["quads"][panel]].mean(axis=0)
+        middle = state.folded.vertices[state.folded.quads[panel]].mean(axis=0)
         marks.append(Mark("U", f"utilization, panel {panel}", middle.tolist()))
     if final.displacement_place_m:
         marks.append(Mark("D", f"displacement, {final.displacement_combination}",

@@ -84,12 +84,12 @@ def _write_path(lines: np.ndarray) -> str:
 
 def _find_edges(view: DesignView, frame: Frame) -> Mapping[str, tuple[str, bool]]:
     """Return the border polylines in plan as SVG paths, and whether they are supported."""
-    folded, vertices = view.state.folded, view.state.shell["vertices"]
-    held = {tuple(sorted(pair)) for pair in view.state.shell["support_pairs"].tolist()}
+    folded, vertices = view.state.folded, view.state.shell.vertices
+    held = {tuple(sorted(pair)) for pair in view.state.shell.support_pairs.tolist()}
     found = {}
     for kind in ("zigzag", "strip"):
-        index = folded[kind]
-        other = folded["strip" if kind == "zigzag" else "zigzag"]
+        index = getattr(folded, kind)
+        other = folded.strip if kind == "zigzag" else folded.zigzag
         paths, supported = [], False
         for border in (index.min(), index.max()):
             line = np.flatnonzero(index == border)

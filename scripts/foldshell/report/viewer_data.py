@@ -60,13 +60,13 @@ def make_grid(view: DesignView) -> Grid:
     """
     state, creases = view.state, view.creases
     kinds = {kind: getattr(creases, kind) for kind in ("mountain", "valley", "flat", "border")}
-    pairs = state.shell["support_pairs"]
+    pairs = state.shell.support_pairs
     if len(state.triangles) <= CELLS_MAX:
         supports = edge_polyline_nodes(state.cells, pairs)
         return Grid(state.cells.nodes, state.triangles, state.cell_panel, kinds, supports)
-    facets = state.shell["facets"]
+    facets = state.shell.facets
     ends = {kind: lines[:, [0, -1]] for kind, lines in kinds.items()}
-    return Grid(state.shell["vertices"], facets, state.shell["facet_panel"], ends,
+    return Grid(state.shell.vertices, facets, state.shell.facet_panel, ends,
                  np.unique(pairs), len(state.triangles) // len(facets))  # fmt: skip
 
 
@@ -95,7 +95,7 @@ def make_viewer_data(view: DesignView, grid: Grid | None = None) -> ViewerData:
     for name, words, moved, factor in _shapes(view, grid):
         values[f"shape_{name}"] = moved
         shapes.append({"name": name, "words": words, "factor": factor})
-    facts = {"fields": fields, "shapes": shapes, "facets": len(state.shell["facets"])}
+    facts = {"fields": fields, "shapes": shapes, "facets": len(state.shell.facets)}
     return ViewerData(arrays | values, facts)
 
 
@@ -104,12 +104,12 @@ def _panel_values(state: DesignState) -> dict[str, np.ndarray]:
 
     Thickness and utilization are (P + B,) with an edge beam's panels.
     """
-    quads = state.folded["quads"]
+    quads = state.folded.quads
     values = {
         "panel_thickness": state.panel_thickness,
-        "panel_planarity": state.folded["planarity"],
-        "panel_zigzag": state.folded["zigzag"][quads].min(axis=1),
-        "panel_strip": state.folded["strip"][quads].min(axis=1),
+        "panel_planarity": state.folded.planarity,
+        "panel_zigzag": state.folded.zigzag[quads].min(axis=1),
+        "panel_strip": state.folded.strip[quads].min(axis=1),
     }
     if state.utilization is not None:
         values["panel_utilization"] = state.panel_utilization
@@ -138,7 +138,7 @@ def _fields(view: DesignView, grid: Grid) -> dict[str, tuple]:
         fields["displacement"] = words, down, make_scale(down, "YlGnBu"), {"at": "node"}
     if state.classes is not None:
         fields["class"] = _class_field(state)
-    planarity = 100 * _pad(state, state.folded["planarity"])
+    planarity = 100 * _pad(state, state.folded.planarity)
     words = "planarity: distance of diagonals / their mean length [%]"
     scale = make_scale(planarity, zero=True, least=RATIO_RANGE_MIN)
     fields["planarity"] = words, planarity, scale, {"at": "panel"}

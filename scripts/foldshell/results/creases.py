@@ -1,12 +1,12 @@
 """Crease lines of a sheet as polylines that follow its result mesh, bent or not."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 
 import numpy as np
 
 from foldshell.pattern.angles import measure_folds
 from foldshell.pattern.grid import build_grid
+from foldshell.records.sheet_arrays import FoldedArrays
 from foldshell.shell.mesh import ShellMesh
 
 FOLD_MIN = np.radians(1.0)
@@ -23,19 +23,16 @@ class Creases:
     border: np.ndarray
 
 
-def find_creases(
-    cells: ShellMesh, folded: Mapping[str, np.ndarray], creased: bool = True
-) -> Creases:
+def find_creases(cells: ShellMesh, folded: FoldedArrays, creased: bool = True) -> Creases:
     """Sort panel edges by the way they fold; neutral folds are left out.
 
     Parameters
     ----------
     cells : result mesh over the facets of the folded sheet
-    folded : arrays vertices, zigzag, strip of folded.npz
     creased : False where a smooth surface bends at its panels' borders, which are no creases
     """
-    grid = build_grid(int(folded["zigzag"].max()) + 1, int(folded["strip"].max()) + 1)
-    fold = measure_folds(folded["vertices"], grid)
+    grid = build_grid(int(folded.zigzag.max()) + 1, int(folded.strip.max()) + 1)
+    fold = measure_folds(folded.vertices, grid)
     edge = slice(0, grid.neutral.start)
     nodes = cells.pair_nodes[_find_pairs(cells, grid.edges[edge])]
     border = grid.assignments[edge] == "B"

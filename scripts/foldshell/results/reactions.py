@@ -81,7 +81,7 @@ def find_reactions(view: DesignView, settings: StageSettings) -> Reactions | Non
 def _model_of(view: DesignView) -> ShellModel:
     """Return the model of a view's mesh, without the pattern of its equations: none are solved."""
     state = view.state
-    held, fixed = state.shell["supported_nodes"], state.edge_beam_thickness
+    held, fixed = state.shell.supported_nodes, state.edge_beam_thickness
     return ShellModel(state.mesh, view.operators, None, held, fixed)
 
 
@@ -89,7 +89,7 @@ def _sum_edges(
     state: DesignState, node: np.ndarray, force: np.ndarray
 ) -> tuple[SupportedEdge, ...]:
     """Return the resultants by supported border polyline, zig-zags first."""
-    pairs, border = (state.shell[name] for name in ("support_pairs", "support_border"))
+    pairs, border = state.shell.support_pairs, state.shell.support_border
     shares = share_supported_nodes(state.mesh, pairs, border, node)
     places = state.mesh.nodes[node]
     return tuple(

@@ -1,17 +1,16 @@
 """The final state of a design, read once for all its pictures and for design.vtu."""
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from foldshell.files.errors import InputError
-from foldshell.files.whole import read_arrays
 from foldshell.records.analysis import AnalysisRecord
 from foldshell.records.analysis_arrays import AnalysisArrays, ClassesArrays
 from foldshell.records.arrays import read_typed_arrays
 from foldshell.records.iteration import read_iteration
+from foldshell.records.sheet_arrays import FoldedArrays, MeshArrays
 from foldshell.settings.loads import Combinations
 from foldshell.shell.mesh import ShellMesh
 from foldshell.shell.mesh_files import (
@@ -37,8 +36,8 @@ class DesignState:
     mesh: ShellMesh
     cells: ShellMesh
     triangles: np.ndarray
-    shell: Mapping[str, np.ndarray]
-    folded: Mapping[str, np.ndarray]
+    shell: MeshArrays
+    folded: FoldedArrays
     final: AnalysisArrays
     report: AnalysisRecord
     strength: tuple[str, ...]
@@ -53,7 +52,8 @@ class DesignState:
     @property
     def edge_beam_thickness(self) -> np.ndarray:
         """Thickness of the edge beam's panels, (B,) m; empty where there is none."""
-        return self.shell.get("fixed_thickness", np.empty(0))
+        fixed = self.shell.fixed_thickness
+        return np.empty(0) if fixed is None else fixed
 
     @property
     def panel_thickness(self) -> np.ndarray:
@@ -100,7 +100,7 @@ class DesignState:
         """Return a mode (N, 3), scaled to a largest translation of 1. Without unit."""
         column = self.combinations.index(combination)
         free = np.ones(self.mesh.dof_count, dtype=bool)
-        free[(3 * self.shell["supported_nodes"][:, None] + np.arange(3)).ravel()] = False
+        free[(3 * self.shell.supported_nodes[:, None] + np.arange(3)).ravel()] = False
         mode = np.zeros(self.mesh.dof_count)
         mode[free] = self.final.buckling_modes[:, column]
         mode = self._at_cells(mode)
@@ -133,19 +133,20 @@ def read_state(
     mesh, shell = read_mesh(mesh_path)
     report, final = read_iteration(report_path, final_path)
     classes = read_typed_arrays(classes_path, ClassesArrays) if classes_path else None
-    panels = int(mesh.panel.max()) + 1 - len(shell.get("fixed_thickness", ()))
+    fixed = 0 if shell.fixed_thickness is None else len(shell.fixed_thickness)
+    panels = int(mesh.panel.max()) + 1 - fixed
     if final.thickness.shape != (panels,):
         raise InputError(
             f"{final_path}: thickness: {final.thickness.shape}: one for each of {panels} panels"
         )
-    cells = result_mesh(mesh, shell["vertices"], shell["facets"])
+    cells = result_mesh(mesh, shell.vertices, shell.facets)
     return DesignState(
         name=name,
         mesh=mesh,
         cells=cells,
         triangles=cell_triangles(cells),
         shell=shell,
-        folded=read_arrays(folded_path),
+        folded=read_typed_arrays(folded_path, FoldedArrays),
         final=final,
         report=report,
         strength=tuple(combinations.strength),

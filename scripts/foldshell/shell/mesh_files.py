@@ -1,11 +1,19 @@
 """The shell mesh in files: arrays for the rules that follow, and a VTU to look at."""
 
+from collections.abc import Mapping
 from dataclasses import fields
 from pathlib import Path
 
 import numpy as np
 
-from foldshell.files.whole import atomic_path, read_arrays, write_arrays
+from foldshell.files.whole import atomic_path
+from foldshell.records.arrays import (
+    list_arrays,
+    make_typed_arrays,
+    read_typed_arrays,
+    write_typed_arrays,
+)
+from foldshell.records.sheet_arrays import MeshArrays
 from foldshell.shell.edge_beams import EdgeBeam, facet_edges, free_edges, hang_edge_beam_panels
 from foldshell.shell.mesh import ShellMesh, build_mesh, edge_polyline_nodes
 from foldshell.shell.reference import lagrange_basis, lattice_points
@@ -13,7 +21,7 @@ from foldshell.shell.supports import find_borders, find_support, supported_pairs
 
 
 def mesh_folded_sheet(
-    folded: dict[str, np.ndarray],
+    folded: Mapping[str, np.ndarray],
     support: str,
     subdivisions: int,
     order: int | None = None,
@@ -52,18 +60,18 @@ def mesh_folded_sheet(
     }
 
 
-def write_mesh(path: str | Path, arrays: dict[str, np.ndarray]) -> None:
+def write_mesh(path: str | Path, arrays: Mapping[str, np.ndarray]) -> None:
     """Write the arrays of `mesh.npz`, as `mesh_folded_sheet` makes them."""
-    write_arrays(path, arrays)
+    write_typed_arrays(path, make_typed_arrays(MeshArrays, arrays))
 
 
-def read_mesh(path: str | Path) -> tuple[ShellMesh, dict[str, np.ndarray]]:
-    """Return the mesh and all arrays of `mesh.npz`."""
-    arrays = read_arrays(path)
-    return mesh_from_arrays(arrays), arrays
+def read_mesh(path: str | Path) -> tuple[ShellMesh, MeshArrays]:
+    """Return the mesh and all arrays of `mesh.npz`; raises `InputError` for a damaged file."""
+    arrays = read_typed_arrays(path, MeshArrays)
+    return mesh_from_arrays(list_arrays(arrays)), arrays
 
 
-def mesh_from_arrays(arrays: dict[str, np.ndarray]) -> ShellMesh:
+def mesh_from_arrays(arrays: Mapping[str, np.ndarray]) -> ShellMesh:
     """Return the mesh that is part of the arrays of `mesh.npz`."""
     values = {field.name: arrays[field.name] for field in fields(ShellMesh)}
     scalars = {name: int(value) for name, value in values.items() if value.ndim == 0}
@@ -110,7 +118,7 @@ def interpolate_to_cells(mesh: ShellMesh, cells: ShellMesh, translation: np.ndar
     return values
 
 
-def write_mesh_vtu(path: str | Path, mesh: ShellMesh, arrays: dict[str, np.ndarray]) -> None:
+def write_mesh_vtu(path: str | Path, mesh: ShellMesh, arrays: Mapping[str, np.ndarray]) -> None:
     """Write the result cells with panel, facet and supported nodes as a VTU (m).
 
     `arrays` are those of mesh.npz.

@@ -6,8 +6,10 @@ from pathlib import Path
 import numpy as np
 
 from foldshell.files.errors import InputError
-from foldshell.files.whole import hash_data, hash_file, read_arrays
+from foldshell.files.whole import hash_data, hash_file
 from foldshell.loads.cases import make_load_cases
+from foldshell.records.arrays import read_checked_arrays
+from foldshell.records.sheet_arrays import MeshArrays
 from foldshell.settings.stage import StageSettings
 from foldshell.shell.analysis import build_model
 from foldshell.shell.mesh_files import mesh_from_arrays
@@ -32,7 +34,7 @@ def open_case(mesh_path: str | Path, settings: StageSettings) -> AnalysisCase:
     key = hash_file(mesh_path), hash_data(settings.to_plain())
     if key not in _LAST:
         try:
-            case = make_case(read_arrays(mesh_path), settings)
+            case = make_case(read_checked_arrays(mesh_path, MeshArrays), settings)
         except ValueError as error:
             raise InputError(f"{mesh_path}: {error}") from None
         _LAST.clear()

@@ -33,7 +33,7 @@ def test_fields_stand_in_their_cells(tmp_path):
     assert np.array_equal(fields["thickness_class"], 1 + fields["panel"] * 3 // 20)
     assert np.array_equal(np.unique(fields["class_thickness"]), [0.1, 0.15, 0.2])
     assert (fields["utilization"] == 0.4).all()
-    strip = np.isin(state.folded["strip"], (0, 5))
+    strip = np.isin(state.folded.strip, (0, 5))
     assert np.array_equal(nodal["supported"][: len(strip)] == 1, strip)
 
 

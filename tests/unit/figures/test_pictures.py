@@ -180,7 +180,7 @@ def test_buckling_mode_is_that_of_the_least_factor(tmp_path):
     assert specify_buckling(view).caption.lines[0].startswith("S2: buckling factor 2.00")
     mode = view.state.buckling_mode("S2")
     assert np.linalg.norm(mode, axis=1).max() == pytest.approx(1)
-    vertices = np.unique(view.state.shell["support_pairs"])
+    vertices = np.unique(view.state.shell.support_pairs)
     assert np.abs(mode[vertices]).max() < 1e-12  # interpolated from the nodes: rounding is left
 
 

@@ -14,8 +14,13 @@ from foldshell.files.errors import InputError
 from foldshell.files.whole import write_arrays
 from foldshell.records.analysis import AnalysisRecord, Criterion, read_analysis, write_analysis
 from foldshell.records.analysis_arrays import AnalysisArrays, StepMemory
-from foldshell.records.arrays import list_arrays, read_typed_arrays, write_typed_arrays
-from foldshell.records.catalogue import FILES
+from foldshell.records.arrays import (
+    array_entries,
+    list_arrays,
+    read_typed_arrays,
+    write_typed_arrays,
+)
+from foldshell.records.catalogue import ARRAYS, FILES
 from foldshell.records.design_row import DesignRow
 from foldshell.records.documentation import write_documentation
 from foldshell.records.entry import COUNT, entries
@@ -273,3 +278,27 @@ def test_words_and_units_are_made_for_people():
     assert known["dofs"].label() == "unknowns"
     assert known["displacement_vertical_max_m"].label(unit=False) == "vertical displacement, down"
     assert to_plain(Criterion(value=None, limit=1.0, met=False))["value"] is None
+
+
+@pytest.mark.parametrize("file", ARRAYS, ids=lambda file: file.name)
+def test_an_array_that_is_missing_or_of_other_axes_is_named_with_its_file(tmp_path, file):
+    """Sizes by letter: all axes of a file that share one have its size."""
+    sizes = {letter: 3 + k for k, letter in enumerate("ABCDEFGHIJKLMNOPQRSTUVWXYZ")}
+    about = array_entries(file.kind)
+    arrays = {
+        name: np.zeros([int(axis) if axis.isdigit() else sizes[axis] for axis in one.axes])
+        for name, one in about.items()
+    }
+    path = tmp_path / f"{file.name}.npz"
+    write_arrays(path, arrays)
+    assert set(list_arrays(read_typed_arrays(path, file.kind))) == set(arrays)
+    for name, one in about.items():
+        write_arrays(path, {key: values for key, values in arrays.items() if key != name})
+        if one.required:
+            with pytest.raises(InputError, match=rf"{file.name}\.npz: {name}: is missing"):
+                read_typed_arrays(path, file.kind)
+        else:
+            assert getattr(read_typed_arrays(path, file.kind), name) is None
+        write_arrays(path, arrays | {name: np.zeros((1, 1, 1, 1))})
+        with pytest.raises(InputError, match=rf"{file.name}\.npz: {name}: \(1, 1, 1, 1\): must be"):
+            read_typed_arrays(path, file.kind)

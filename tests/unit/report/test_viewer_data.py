@@ -91,7 +91,7 @@ def test_very_large_sheets_are_shown_by_facets(tmp_path, monkeypatch):
     coarse = make_viewer_data(make_design_view(state, 5.0, Sizing(), Material()))
     assert np.array_equal(coarse.arrays["field_utilization"], cells.max(axis=1))
     assert len(coarse.arrays["triangles"]) == 2 * PANELS
-    assert np.array_equal(coarse.arrays["nodes"], state.shell["vertices"])
+    assert np.array_equal(coarse.arrays["nodes"], state.shell.vertices)
     ends = coarse.arrays["crease_border"]
     assert ends.shape[1] == 2
     assert np.array_equal(ends, fine.arrays["crease_border"][:, [0, -1]])
@@ -113,7 +113,7 @@ def test_a_sheet_far_from_the_origin_is_shown_about_its_middle(tmp_path):
     moved = replace(
         state,
         cells=replace(state.cells, nodes=state.cells.nodes + place),
-        shell={**state.shell, "vertices": state.shell["vertices"] + place},
+        shell=replace(state.shell, vertices=state.shell.vertices + place),
     )
     far = make_viewer_data(make_design_view(moved, 5.0, Sizing(), Material()))
     assert np.abs(far.arrays["nodes"]).max() < 10

@@ -40,7 +40,7 @@ def beam_state(folder, turn):
     )
     cells = result_mesh(mesh, vertices, facets)
     state = replace(
-        make_state(folder), mesh=mesh, cells=cells, triangles=cell_triangles(cells), shell={},
+        make_state(folder), mesh=mesh, cells=cells, triangles=cell_triangles(cells),
         final=AnalysisArrays(thickness=np.full(3, THICKNESS), displacement=done.displacement),
         strength=("S1",), deflection=(),
     )  # fmt: skip

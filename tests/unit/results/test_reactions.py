@@ -29,7 +29,7 @@ def analysed(folder):
     *files, _ = write_case(folder)
     state = read_state("case", *files, given.combinations)
     material = given.material
-    model = build_model(state.mesh, state.shell["supported_nodes"], material.poissons_ratio)
+    model = build_model(state.mesh, state.shell.supported_nodes, material.poissons_ratio)
     cases = make_load_cases(given.loads, material.unit_weight)
     thickness = model.to_elements(state.final.thickness)
     found = analyse_shell(
@@ -62,7 +62,7 @@ def test_edges_share_out_all_reactions(tmp_path):
     assert [edge.name for edge in found.edges] == ["first strip edge", "last strip edge"]
     total = sum(edge.force for edge in found.edges)
     assert total == pytest.approx(found.force.sum(axis=0), abs=1e-12 * np.abs(total).max())
-    strip, vertices = state.folded["strip"], state.folded["vertices"]
+    strip, vertices = state.folded.strip, state.folded.vertices
     for edge, number in zip(found.edges, (0, strip.max()), strict=True):
         side = vertices[strip == number]
         assert (edge.place >= side.min(axis=0) - 1e-9).all()

@@ -1,0 +1,63 @@
+"""folded.npz and mesh.npz: the folded sheet, and the shell mesh on it.
+
+Axes: V vertices, P panels, T facets; N nodes, E elements, L nodes of an element, G edges of facets,
+J nodes along one; S supported edges of facets, H supported nodes, B panels of an edge beam. In
+mesh.npz vertices, facets and panels of an edge beam stand after those of the sheet.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from foldshell.records.arrays import array
+
+
+@dataclass(frozen=True, kw_only=True)
+class FoldedArrays:
+    """The arrays of folded.npz."""
+
+    vertices: np.ndarray = array("V, 3", "m", "vertices of the folded sheet", required=True)
+    quads: np.ndarray = array("P, 4", "", "vertices of each panel", required=True)
+    facets: np.ndarray = array(
+        "T, 3", "", "vertices of each facet, two a panel in the order of panels", required=True
+    )
+    zigzag: np.ndarray = array("V", "", "zig-zag polyline of each vertex, from 0", required=True)
+    strip: np.ndarray = array("V", "", "strip polyline of each vertex, from 0", required=True)
+    flat: np.ndarray = array("V, 3", "m", "vertices of the flat sheet", required=True)
+    planarity: np.ndarray = array(
+        "P", "-", "distance between a panel's diagonals, over their mean length", required=True
+    )
+    strain: np.ndarray = array("T", "-", "largest strain of a facet's edges", required=True)
+
+
+@dataclass(frozen=True, kw_only=True)
+class MeshArrays:
+    """The arrays of mesh.npz."""
+
+    nodes: np.ndarray = array("N, 3", "m", "nodes", required=True)
+    elements: np.ndarray = array(
+        "E, L", "", "nodes of each element in lattice order", required=True
+    )
+    element_edges: np.ndarray = array("E, 3", "", "edges of each element", required=True)
+    edge_signs: np.ndarray = array(
+        "E, 3", "", "1 where an element runs along the edge's own direction, else -1", required=True
+    )
+    edge_count: np.ndarray = array("", "", "edges in all", required=True)
+    order: np.ndarray = array("", "", "polynomial order of the elements", required=True)
+    subdivisions: np.ndarray = array("", "", "elements along the edge of a facet", required=True)
+    cells: np.ndarray = array("", "", "result cells along the edge of an element", required=True)
+    facet: np.ndarray = array("E", "", "facet of each element", required=True)
+    panel: np.ndarray = array("E", "", "panel of each element", required=True)
+    node_pairs: np.ndarray = array("G, 2", "", "vertices of each edge of a facet", required=True)
+    pair_nodes: np.ndarray = array("G, J", "", "nodes along it", required=True)
+    vertices: np.ndarray = array("V, 3", "m", "vertices", required=True)
+    facets: np.ndarray = array("T, 3", "", "vertices of each facet", required=True)
+    facet_panel: np.ndarray = array("T", "", "panel of each facet", required=True)
+    support_pairs: np.ndarray = array(
+        "S, 2", "", "vertices of each supported edge of a facet", required=True
+    )
+    support_border: np.ndarray | None = array("S", "", "border of the sheet that it lies on")
+    supported_nodes: np.ndarray = array("H", "", "supported nodes", required=True)
+    fixed_thickness: np.ndarray | None = array(
+        "B", "m", "thickness of the panels of an edge beam, the last ones"
+    )
