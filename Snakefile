@@ -14,7 +14,7 @@ from foldshell.engine.environment import ONE_THREAD, prepare_environment
 from foldshell.engine.plain_path import find_plain_path
 from foldshell.engine.versions import check_snakemake
 from foldshell.files.errors import user_errors
-from foldshell.settings.load import load_study
+from foldshell.settings.load_study import load_study
 from foldshell.records.edits import keep_all_edited
 from foldshell.settings.places import STUDIES, check_results, choose_results
 

@@ -10,7 +10,7 @@ from foldshell.files.errors import InputError
 from foldshell.files.meshes.read import FORMATS
 from foldshell.files.meshes.surface import read_surface
 from foldshell.folding.targets import make_target
-from foldshell.settings.load import load_study
+from foldshell.settings.load_study import load_study
 from foldshell.settings.make import make_settings
 
 FAULTS = Path(__file__).parents[2] / "data" / "faults"

@@ -23,7 +23,7 @@ from foldshell.settings.documentation import (
     generate_schemas,
 )
 from foldshell.settings.field import list_groups, list_settings
-from foldshell.settings.load import load_study
+from foldshell.settings.load_study import load_study
 from foldshell.settings.make import make_settings, read_settings
 from foldshell.settings.sizing import Sizing
 from foldshell.settings.stage import flatten, read_stage, to_plain
