@@ -15,6 +15,8 @@ rule sensitivity:
         variant="|".join(VARIANTS),
     conda:
         "../envs/foldshell.yaml"
+    resources:
+        mem_mb=memory_of("analyse"),
     params:
         **of_design("span_m"),
         layout=lambda wildcards: layout_of(wildcards.design),
@@ -38,6 +40,8 @@ rule flat_equal:
         timing("flat_equal")
     conda:
         "../envs/foldshell.yaml"
+    resources:
+        mem_mb=memory_of("analyse"),
     params:
         **of_design("span_m"),
         flat=lambda wildcards: flat_of(BY_NAME[wildcards.design]),

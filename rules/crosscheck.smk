@@ -16,6 +16,8 @@ rule neutral_model:
     priority: AFTER_LOOP
     conda:
         "../envs/foldshell.yaml"
+    resources:
+        mem_mb=memory_of("mesh"),
     params:
         settings=of_stage("crosscheck"),
     message:
@@ -40,6 +42,8 @@ rule mesh_convergence:
     priority: AFTER_LOOP
     conda:
         "../envs/foldshell.yaml"
+    resources:
+        mem_mb=memory_of("mesh_convergence"),
     params:
         **of_design("support"),
         edge_beam=edge_beam,
@@ -66,6 +70,8 @@ rule compare:
     priority: AFTER_LOOP
     conda:
         "../envs/foldshell.yaml"
+    resources:
+        mem_mb=memory_of("compare"),
     params:
         subdivisions=SETTINGS.crosscheck.subdivisions,
         solver=SETTINGS.crosscheck.solver,

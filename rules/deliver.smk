@@ -20,6 +20,8 @@ rule draw:
     priority: AFTER_LOOP
     conda:
         "../envs/foldshell.yaml"
+    resources:
+        mem_mb=memory_of("draw"),
     params:
         **of_design("span_m", "pattern"),
         settings=lambda wildcards: of_stage("size")(wildcards) | of_stage("figures")(wildcards),
@@ -59,6 +61,8 @@ rule page:
     priority: AFTER_LOOP
     conda:
         "../envs/foldshell.yaml"
+    resources:
+        mem_mb=memory_of("page"),
     params:
         design=lambda wildcards: BY_NAME[wildcards.design].to_row(),
         settings=of_stage("size"),

@@ -4,7 +4,6 @@
 import inspect
 import logging
 from subprocess import CalledProcessError
-from types import SimpleNamespace
 
 from snakemake import benchmark as benchmarks, script as scripts
 from snakemake.exceptions import IncompleteCheckpointException, WorkflowError
@@ -73,8 +72,8 @@ def run_in_fork(job, fname):
     end = SERVERS[0].run(fname, pool, job.wildcards.get("design", ""), log)
     if end is not None:
         show_job(log, bool(end.code))
-        found = zip(RECORD_FIELDS.split(), end.describe())
-        vars(job.bench_record or SimpleNamespace()).update(found)
+    if end is not None and job.bench_record:
+        vars(job.bench_record).update(zip(RECORD_FIELDS.split(), end.describe()))
     return end and end.code
 
 
@@ -94,9 +93,8 @@ def execute_script(self, fname, edit=False):
 SCRIPT = getattr(scripts, "PythonScript", object)
 RECORD = getattr(benchmarks, "BenchmarkRecord", object)
 START_PYTHON = getattr(SCRIPT, "execute_script", None)
-FIELDS = inspect.signature(SCRIPT.__init__).parameters
 KNOWN = PRIVATE.has(SCRIPT, "PythonScript", "execute_script _execute_cmd")
-KNOWN &= PRIVATE.has(FIELDS, "PythonScript", SCRIPT_FIELDS)
+KNOWN &= PRIVATE.has(inspect.signature(SCRIPT.__init__).parameters, "PythonScript", SCRIPT_FIELDS)
 if PRIVATE.has(RECORD(), "BenchmarkRecord", RECORD_FIELDS) and KNOWN:
     SCRIPT.execute_script = execute_script
 
@@ -106,8 +104,10 @@ onstart:
     if runs_here():
         dag, scheduler = workflow.dag, workflow.scheduler
         # The limit of 100 starts a second takes half a core after some hundred jobs.
-        if PRIVATE.has(scheduler, "scheduler", "job_rate_limiter"):
+        if PRIVATE.has(scheduler, "scheduler", "job_rate_limiter global_resources resources"):
             scheduler.job_rate_limiter = None
+            for known in (scheduler.global_resources, scheduler.resources) * bool(MEMORY[0]):
+                known.setdefault("mem_mb", MEMORY[0])
         # Jobs that are up to date at the start stay so: to ask them anew takes longer than a job.
         done = PRIVATE.has(scheduler, "scheduler", "finished_jobs")
         if PRIVATE.has(dag, "dag", "_finished _needrun _len") and done:
@@ -116,5 +116,5 @@ onstart:
             scheduler.finished_jobs += len(current)
             dag._len = len(dag._finished | dag._needrun)
         if SETTINGS.jobs.fork and AVAILABLE:
-            SERVERS.append(ForkServer(SCRIPTS, MODULES, os.environ | ONE_THREAD))
+            SERVERS.append(ForkServer(SCRIPTS, MODULES, os.environ | ONE_THREAD, MEMORY[1]))
     sys.stderr.write(PRIVATE.describe())

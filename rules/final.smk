@@ -16,6 +16,8 @@ rule group:
     priority: AFTER_LOOP
     conda:
         "../envs/foldshell.yaml"
+    resources:
+        mem_mb=memory_of("analyse"),
     params:
         **LOOP_PARAMS["group"],
     message:

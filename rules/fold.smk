@@ -15,6 +15,8 @@ rule fold:
     priority: BEFORE_LOOP
     conda:
         "../envs/foldshell.yaml"
+    resources:
+        mem_mb=memory_of("fold"),
     params:
         **of_design("surface", "span_m", "height_m", "fold_mode"),
         settings=of_stage("fold"),

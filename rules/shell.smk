@@ -12,6 +12,8 @@ rule mesh:
     priority: BEFORE_LOOP
     conda:
         "../envs/foldshell.yaml"
+    resources:
+        mem_mb=memory_of("mesh"),
     params:
         **of_design("support"),
         edge_beam=edge_beam,

@@ -38,6 +38,8 @@ checkpoint analyse:
         timing("analyse", "-{iteration}")
     conda:
         "../envs/foldshell.yaml"
+    resources:
+        mem_mb=memory_of("analyse"),
     params:
         **LOOP_PARAMS["analyse"],
     message:

@@ -36,6 +36,8 @@ rule size:
         timing("size")
     conda:
         "../envs/foldshell.yaml"
+    resources:
+        mem_mb=memory_of("analyse"),
     params:
         scripts=SCRIPTS,
         jobs=given(LOOP_PARAMS),

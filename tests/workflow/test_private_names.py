@@ -11,7 +11,7 @@ import pytest
 REPOSITORY = Path(__file__).parents[2]
 ENGINE = (REPOSITORY / "rules/engine.smk").read_text()
 SCRIPTS = ["execute_script", "_execute_cmd", "conda_env", "shadow_dir", "bench_record"]
-RUNS = ["job_rate_limiter", "finished_jobs", "_finished", "_needrun", "_len"]
+RUNS = ["job_rate_limiter", "global_resources", "finished_jobs", "_finished", "_needrun", "_len"]
 NAMES = [*SCRIPTS, *RUNS, "data_collected", "targets", "main_snakefile"]
 NAMES += ["DefaultStreamHandler"]
 SNAKEFILE = """
@@ -22,6 +22,7 @@ SCRIPTS = {scripts!r}
 sys.path.insert(0, SCRIPTS)
 from foldshell.engine.environment import ONE_THREAD
 
+MEMORY = (100, 50)
 SETTINGS = SimpleNamespace(jobs=SimpleNamespace(fork=True))
 include: "engine.smk"
 
@@ -44,6 +45,11 @@ rule end:
     benchmark: "end.tsv"
     script: "job.py"
 
+rule large:
+    output: "large{{number}}.txt"
+    resources: mem_mb=60
+    shell: "date +%s.%N > {{output}}; sleep 0.5; date +%s.%N >> {{output}}"
+
 checkpoint analyse:
     output: json="{{design}}/{{iteration}}.json"
     shell: "touch {{output}}"
@@ -58,12 +64,12 @@ Path(snakemake.output[0]).write_text(parent)
 """
 
 
-def run_tiny(folder, engine):
+def run_tiny(folder, engine, *targets, cores="1"):
     """Run a checkpoint and a script by a Snakefile that includes this engine.smk."""
     (folder / "engine.smk").write_text(engine)
     (folder / "job.py").write_text(JOB)
     (folder / "Snakefile").write_text(SNAKEFILE.format(scripts=str(REPOSITORY / "scripts")))
-    command = [sys.executable, "-m", "snakemake", "--cores", "1", "end"]
+    command = [sys.executable, "-m", "snakemake", "--cores", cores, *(targets or ["end"])]
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
     assert done.returncode == 0, done.stderr[-3000:]
     return done
@@ -80,6 +86,14 @@ def test_this_snakemake_has_every_private_name(tmp_path):
     (record,) = csv.DictReader((tmp_path / "end.tsv").open(), delimiter="\t")
     assert float(record["max_rss"]) > 1 and float(record["s"]) > 0
     assert "2 of 2 steps (100%) done" in done.stderr
+
+
+def test_jobs_that_need_all_memory_run_one_after_the_other(tmp_path):
+    """Two of 60 MB where there are 100 MB for jobs, on two cores."""
+    run_tiny(tmp_path, ENGINE, "large1.txt", "large2.txt", cores="2")
+    spans = [(tmp_path / f"large{n}.txt").read_text().split() for n in (1, 2)]
+    first, second = sorted([float(time) for time in span] for span in spans)
+    assert first[1] <= second[0]
 
 
 @pytest.mark.parametrize("gone", [*((name,) for name in NAMES[::4]), tuple(NAMES)], ids="-".join)

@@ -83,6 +83,7 @@ class _Kept:
     pool: str
     affinity: str
     fork: socket.socket
+    rss_mb: float = 0.0
 
 
 class ForkServer:
@@ -93,6 +94,7 @@ class ForkServer:
     folder : from which the modules are imported, last on the path of every script
     modules : names that the server imports whenever no script is asked for
     environment : of the server and all scripts; this process's own if None
+    kept_mb : memory (MB) that forks may hold while they wait; the one that waits longest goes first
     """
 
     def __init__(
@@ -100,7 +102,9 @@ class ForkServer:
         folder: str | Path,
         modules: Sequence[str],
         environment: Mapping[str, str] | None = None,
+        kept_mb: float | None = None,
     ) -> None:
+        self._kept_mb = float("inf") if kept_mb is None else kept_mb
         self._lock = threading.Lock()
         self._kept: list[_Kept] = []
         self._requests, other = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
@@ -173,7 +177,9 @@ class ForkServer:
                 fork.close()
                 return
             with self._lock:
-                self._kept.append(_Kept(pool, affinity, fork))
+                self._kept.append(_Kept(pool, affinity, fork, result.rss_mb))
+                while sum(kept.rss_mb for kept in self._kept) > self._kept_mb:
+                    self._kept.pop(0).fork.close()
 
         return Job(fork, end, self._find_signal)
 

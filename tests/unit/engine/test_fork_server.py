@@ -171,6 +171,14 @@ def test_a_large_fork_is_not_kept(server, folder, monkeypatch):
     assert large == small and end.rss_mb > 100 and wait_until_gone(large)
 
 
+def test_forks_that_wait_hold_no_more_memory_than_they_may(folder):
+    """The one that waits longest goes first."""
+    server = ForkServer(folder, ["library"], kept_mb=1.0)
+    pid, end = run_kept(server, folder, "")
+    assert end.rss_mb > 1 and wait_until_gone(pid)
+    server.stop()
+
+
 def test_a_kept_fork_that_was_killed_is_replaced(server, folder):
     killed, _ = run_kept(server, folder, "")
     os.kill(killed, signal.SIGKILL)

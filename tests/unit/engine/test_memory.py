@@ -1,0 +1,51 @@
+"""Memory that jobs take, from panels and subdivisions, and what there is for them."""
+
+import numpy as np
+import pytest
+
+from foldshell.engine.memory import (
+    MB_AND_PER_NODE,
+    count_nodes,
+    estimate_memory,
+    find_free_memory,
+    share_memory,
+)
+from foldshell.pattern.grid import build_grid
+from foldshell.shell.mesh import build_mesh
+
+MEASURED = {
+    "analyse": {5396: 551, 22776: 939, 40376: 1570},
+    "mesh_convergence": {5396: 555, 40376: 3000},
+    "compare": {5396: 468, 40376: 2908},
+    "draw": {5396: 572, 40376: 627},
+}
+"""Largest resident memory (MB) of jobs by nodes, two-core machine, 29 November 2026."""
+
+
+@pytest.mark.parametrize("subdivisions", [1, 2, 4, 8])
+@pytest.mark.parametrize("counts", [(3, 3), (5, 8), (15, 16)])
+def test_nodes_are_those_of_the_mesh(counts, subdivisions):
+    grid = build_grid(*counts)
+    vertices = np.column_stack([grid.strip_index, grid.zigzag_index, 0 * grid.strip_index])
+    mesh = build_mesh(vertices, grid.facets, None, subdivisions)
+    assert count_nodes(*counts, subdivisions) == len(mesh.nodes)
+
+
+@pytest.mark.parametrize(
+    ("rule", "nodes", "measured"),
+    [(rule, nodes, mb) for rule, found in MEASURED.items() for nodes, mb in found.items()],
+)
+def test_what_was_measured_is_covered_and_not_far_below(rule, nodes, measured):
+    assert measured <= estimate_memory(rule, nodes) <= 1.25 * measured
+
+
+def test_every_rule_takes_more_on_a_larger_mesh():
+    for rule in MB_AND_PER_NODE:
+        assert estimate_memory(rule, 1000) < estimate_memory(rule, 50_000)
+
+
+def test_processes_that_wait_have_their_share():
+    """Nine tenths of what is free, a fifth of it for them."""
+    assert share_memory(10_000) == (7200, 1800)
+    assert share_memory(None) == (None, None)
+    assert find_free_memory() > 100
