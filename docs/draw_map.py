@@ -44,12 +44,14 @@ AFTER = (
     Step("compare", "comparison.json", "scripts/crosscheck/"),
     Step("draw", "figures/*.png, .vtu", "figures"),
     Step("page", "page.html", "report"),
+    Step("export", "exports/*", "exchange"),
 )
 STUDY = (
     Step("summary", "summary.csv, .xlsx", "results"),
     Step("study_figures", "figures/*.png", "figures"),
     Step("claims", "claims.json, .md", "claims"),
     Step("report", "report.html", "report"),
+    Step("archive", "archive/*.zip", "archive"),
 )
 
 
