@@ -1,1 +1,1 @@
-"""Files for other programs: VTU, and the neutral model of the cross-check."""
+"""Files for other programs in some fourteen formats, and the neutral model of the cross-check."""
