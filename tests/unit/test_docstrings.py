@@ -17,7 +17,7 @@ SHAPE = re.compile(rf"\({_AXIS},(?:{_AXIS},?)*\)")
 """(N, 3), (P,), (..., 2), (E, cells^2), (len(panels), P)."""
 UNIT = re.compile(
     r"\[[^\]]*\]|\(-\)|\b(kN|kPa|MPa|rad|deg|m|mm|m2|m3|kNm)\b(?!')"
-    r"|\b(unit|units|Unit|numbers?|Numbers|rows?|index|indices|ids|True|bool|uint8|dofs|Dof"
+    r"|\b(unit|units|Unit|[Nn]umbers?|rows?|index|indices|ids|True|bool|uint8|dofs|Dof"
     r"|unknowns|Unknowns|Whether|share|ratio|relative|counts?|weights|mask)\b"
 )
 """A unit, or a word that says why there is none."""

@@ -27,7 +27,7 @@ class Ragged:
 
 
 def make_ragged(rows: Sequence[Sequence[int] | np.ndarray]) -> Ragged:
-    """Build rows of vertices."""
+    """Build rows (k,) of vertex numbers, of any length."""
     sizes = [len(row) for row in rows]
     starts = np.concatenate([[0], np.cumsum(sizes)]).astype(np.int64)
     flat = [np.asarray(row, dtype=np.int64) for row in rows]
@@ -35,7 +35,10 @@ def make_ragged(rows: Sequence[Sequence[int] | np.ndarray]) -> Ragged:
 
 
 def list_half_edges(panels: Ragged) -> tuple[np.ndarray, np.ndarray]:
-    """Sides (H, 2) of all panels in their own direction, and the panel (H,) of each."""
+    """Sides (H, 2) of all panels in their own direction, and the panel (H,) of each.
+
+    All are numbers.
+    """
     sizes = np.diff(panels.starts)
     panel = np.repeat(np.arange(len(panels)), sizes)
     following = np.arange(1, len(panels.corners) + 1)
@@ -93,6 +96,8 @@ def orient_panels(panels: Ragged) -> np.ndarray | None:
     """Which panels (P,) to turn over so that neighbours run against each other at their side.
 
     The first panel of each part stays. None where no such choice exists (a band with a twist).
+
+    It is bool.
     """
     pairs, alike = find_neighbours(panels)
     beside: list[list[tuple[int, bool]]] = [[] for _ in range(len(panels))]
@@ -117,7 +122,7 @@ def orient_panels(panels: Ragged) -> np.ndarray | None:
 
 
 def trace_borders(panels: Ragged) -> list[np.ndarray]:
-    """Loops of vertices along sides of one panel, in the panels' own direction."""
+    """Loops (k,) of vertex numbers along sides of one panel, in the panels' own direction."""
     half, _ = list_half_edges(panels)
     _, place, number = find_sides(panels)
     following: dict[int, list[int]] = {}
@@ -147,6 +152,8 @@ def walk_faces(points: np.ndarray, edges: np.ndarray) -> list[list[int]]:
 
     points (V, 2), edges (E, 2) that meet at vertices alone. From each half-edge the walk turns
     as far to the left as it can.
+
+    Points in one unit of length; faces are vertex numbers.
     """
     half = np.vstack([edges, edges[:, ::-1]])
     along = points[half[:, 1]] - points[half[:, 0]]
@@ -173,6 +180,9 @@ def walk_faces(points: np.ndarray, edges: np.ndarray) -> list[list[int]]:
 
 
 def measure_area(points: np.ndarray) -> float:
-    """Signed area of a polygon (k, 2), counter-clockwise positive."""
+    """Signed area of a polygon (k, 2), counter-clockwise positive.
+
+    In the square of the points' unit.
+    """
     x, y = points.T
     return float((x * np.roll(y, -1) - np.roll(x, -1) * y).sum() / 2)

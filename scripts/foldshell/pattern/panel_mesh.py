@@ -51,12 +51,15 @@ class PanelMesh:
 
     @property
     def facets(self) -> np.ndarray:
-        """Triangles (F, 3) of all panels, cut along diagonals inside them."""
+        """Triangles (F, 3) of all panels, cut along diagonals inside them.
+
+        They are vertex numbers.
+        """
         return self._split[0]
 
     @property
     def facet_panel(self) -> np.ndarray:
-        """Panel (F,) of each facet."""
+        """Panel (F,) of each facet. It is a number."""
         return self._split[1]
 
     @cached_property
@@ -68,7 +71,7 @@ class PanelMesh:
 
     @cached_property
     def borders(self) -> list[np.ndarray]:
-        """Border loops: vertices in the order of the panels' own turn."""
+        """Border loops (k,) of vertex numbers, in the order of the panels' own turn."""
         return trace_borders(self.panels)
 
     @cached_property
@@ -77,7 +80,10 @@ class PanelMesh:
         return group_panels(self.panels)
 
     def measure_warp(self) -> np.ndarray:
-        """Largest distance of a corner to the panel's mean plane, over the diagonal (P,)."""
+        """Largest distance of a corner to the panel's mean plane, over the diagonal (P,).
+
+        The ratio has no unit.
+        """
         return measure_warp(self.vertices, self.panels)
 
 

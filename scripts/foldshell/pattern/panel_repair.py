@@ -151,7 +151,7 @@ def _orient(vertices: np.ndarray, panels: Ragged, notes: list[str]) -> Ragged:
 
 
 def measure_normals(vertices: np.ndarray, panels: Ragged) -> np.ndarray:
-    """Area vectors (P, 3) of panels."""
+    """Area vectors (P, 3) of panels. vertices (V, 3) in one unit of length, areas in its square."""
     half, panel = list_half_edges(panels)
     middle = np.zeros((len(panels), 3))
     for axis in range(3):
@@ -163,7 +163,10 @@ def measure_normals(vertices: np.ndarray, panels: Ragged) -> np.ndarray:
 
 
 def join_coplanar(vertices: np.ndarray, panels: Ragged) -> Ragged:
-    """Join neighbouring panels in one plane, to half a degree, where one outline encloses them."""
+    """Join neighbouring panels in one plane, to half a degree, where one outline encloses them.
+
+    vertices (V, 3) in one unit of length.
+    """
     normal = measure_normals(vertices, panels)
     normal /= np.linalg.norm(normal, axis=1)[:, None]
     pairs, _ = find_neighbours(panels)
@@ -205,5 +208,5 @@ def _check_parts(vertices: np.ndarray, panels: Ragged) -> None:
 
 
 def say_place(point: np.ndarray) -> str:
-    """Write coordinates of a place."""
+    """Write coordinates (2,) or (3,) of a place, in their unit."""
     return ", ".join(f"{axis} = {value:.6g}" for axis, value in zip("xyz", point, strict=False))

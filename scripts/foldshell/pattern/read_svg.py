@@ -197,7 +197,7 @@ def _number(place: str, element: ElementTree.Element, key: str) -> float:
 
 
 def read_transform(place: str, text: str) -> np.ndarray:
-    """The matrix (3, 3) of a `transform` attribute."""
+    """The matrix (3, 3) of a `transform` attribute. Lengths in units of the drawing."""
     matrix = np.eye(3)
     rest = re.sub(r"([a-zA-Z]+)\s*\(([^()]*)\)[\s,]*", "", text).strip()
     if rest:

@@ -81,6 +81,8 @@ def split_polygons(
 
     Those of triangles and quadrilaterals at once. Triangles with a corner
     twice are left out.
+
+    vertices (V, 3) in one unit of length.
     """
     sizes, first = np.diff(starts), starts[:-1]
     parts = [corners[first[sizes == 3][:, None] + np.arange(3)]]
@@ -119,6 +121,8 @@ def cut_polygon(vertices: np.ndarray, polygon: np.ndarray) -> np.ndarray:
 
     Of all ways to cut it along diagonals inside, the one whose largest angle is least, found by
     dynamic programming over the polygon's chains; large polygons are cut ear by ear.
+
+    vertices (V, 3) in one unit of length.
     """
     plane = _lay_in_plane(vertices[polygon])
     if len(polygon) > MOST_CORNERS:
