@@ -4,6 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from foldshell.loads.cases import DOWN, GLOBAL_X, GLOBAL_Y, WEIGHT, SurfaceLoad, make_load_cases
+from foldshell.records.entry import SIGNS
 from foldshell.report.markup import Table, format_number, make_table
 from foldshell.settings.field import list_settings
 from foldshell.settings.loads import Combinations
@@ -17,6 +18,9 @@ DIRECTIONS = {
     GLOBAL_Y: ("along y", "y"),
 }
 """Directions of load cases in words, and how their arrows point in a sketch."""
+
+
+WORDS = {"youngs_modulus": "Young's modulus", "poissons_ratio": "Poisson's ratio"}
 
 
 @dataclass(frozen=True)
@@ -74,6 +78,7 @@ def _list_material(material: Material) -> Table:
         value = getattr(material, name)
         if isinstance(value, float | int):
             value = format_number(value / about.convert(1.0))
-        unit = f" [{about.unit}]" if about.unit else ""
-        rows.append((f"{name.replace('_', ' ')}{unit}", str(value).replace("_", " ")))
+        unit = f" [{SIGNS.get(about.unit, about.unit)}]" if about.unit else ""
+        words = WORDS.get(name, name.replace("_", " "))
+        rows.append((f"{words}{unit}", str(value).replace("_", " ")))
     return make_table(("property", "value"), rows)

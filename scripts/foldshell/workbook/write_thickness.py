@@ -63,7 +63,7 @@ def write_thickness(
         sheet.write_string(0, 0, "Thickness of the panels", styles["title"])
         row = write_lines(sheet, styles, 2, summary)
         sheet.merge_range(row + 1, 0, row + 3, 2, _HELP, styles["wrap"])
-        _write_panels(add_sheet(book, "thickness", landscape=False), styles, table, thickness)
+        _write_panels(add_sheet(book, "thickness"), styles, table, thickness)
         _mark_input(book, styles, thickness.size, least, largest, utilization_max)
 
 
