@@ -181,6 +181,7 @@ def _describe(item: DesignProgress) -> str:
     return (
         f"{item.design:<40.40} {max(0, item.iterations - 1):>3}  {verdict:<20}"
         f" {_number(used):>8}  {_number(volume):>9} m3"
+        + ("  model warning" if last and last.warning else "")
     )
 
 

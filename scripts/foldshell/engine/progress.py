@@ -39,7 +39,8 @@ class DesignProgress:
 
 
 def describe_iteration(design: str, analysis: AnalysisRecord) -> str:
-    """Return one line: iteration, volume, utilization, displacement, factor, verdict, reason."""
+    """Return one line: iteration, volume, utilization, displacement, factor, verdict, reason, and
+    what the model does not hold."""
     words = [f"{design} iteration {analysis.iteration:02d}:"]
     for label, key, form in _NUMBERS:
         value = getattr(analysis, key)
@@ -47,6 +48,7 @@ def describe_iteration(design: str, analysis: AnalysisRecord) -> str:
     factor = analysis.least_factor
     words.append(f"buckling factor {'-' if factor is None else f'{factor:.2f}'},")
     words.append(f"{analysis.verdict}: {analysis.reason}")
+    words += [f"(model: {analysis.warning})"] if analysis.warning else []
     return " ".join(words)
 
 

@@ -68,3 +68,9 @@ def test_half_written_files_do_not_stop_it(tmp_path):
     (tmp_path / "a/sizing/01/analysis.json").write_text('{"iteration": 1, "verd')
     assert read_progress(tmp_path, ["a"])[0].iterations == 1
     assert estimate_left([], 2) is None
+
+
+def test_a_warning_of_the_model_stands_beside_the_numbers():
+    line = describe_iteration("a", make_analysis(model_warnings=("3 panels are thick", "b")))
+    assert line.endswith("(model: 3 panels are thick; b)")
+    assert "model" not in describe_iteration("a", make_analysis(model_warnings=()))
