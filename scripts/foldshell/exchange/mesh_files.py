@@ -1,8 +1,10 @@
 """OBJ, STL, PLY and GLB of the folded sheet and of its thickened solid, in m.
 
-OBJ and PLY hold double precision, STL and GLB single. Colours are those of the thickness classes:
-materials of the sheet's OBJ (with a .mtl beside it) and of GLB, faces in PLY; STL has none, nor has
-the solid's OBJ, which readers would take apart by its materials.
+OBJ and PLY hold double precision, STL and GLB single: far from the origin, as on a national grid,
+STL is text with all digits, and GLB has its meshes about their middle, moved by a transformation.
+Colours are those of the thickness classes: materials of the sheet's OBJ (with a .mtl beside it) and
+of GLB, faces in PLY; STL has none, nor has the solid's OBJ, which readers would take apart by its
+materials.
 """
 
 import struct
@@ -62,18 +64,38 @@ def _obj_text(model: ExportModel, surface: _Surface, materials: str) -> str:
 
 
 def write_stl(model: ExportModel, paths: tuple[Path, ...], options: ExportOptions) -> None:
-    """Write sheet and solid as binary STL."""
+    """Write sheet and solid as STL: binary, or text where single precision has too few digits."""
     kind = np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("count", "<u2")])
     for surface, path in zip(_surfaces(model), paths, strict=True):
         corner = surface.points[surface.triangles]
         normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
         length = np.linalg.norm(normal, axis=1, keepdims=True)
+        normal = normal / np.where(length > 0, length, 1)
+        if is_far(surface.points):
+            with atomic_path(path) as temporary:
+                temporary.write_text(_stl_text(model.design, corner, normal), encoding="ascii")
+            continue
         rows = np.zeros(len(corner), dtype=kind)
-        rows["normal"] = normal / np.where(length > 0, length, 1)
+        rows["normal"] = normal
         rows["corners"] = corner
         head = f"foldshell {model.design}, metres".encode().ljust(80)[:80]
         with atomic_path(path) as temporary:
             temporary.write_bytes(head + struct.pack("<I", len(rows)) + rows.tobytes())
+
+
+def is_far(points: np.ndarray) -> bool:
+    """Whether points (N, 3) m are so far from the origin that single precision spoils them."""
+    step = float(np.spacing(np.float32(np.abs(points).max())))
+    return step > 1e-6 * float(np.ptp(points, axis=0).max())
+
+
+def _stl_text(design: str, corners: np.ndarray, normals: np.ndarray) -> str:
+    lines = [f"solid foldshell {design}, metres"]
+    for triangle, normal in zip(corners.tolist(), normals.tolist(), strict=True):
+        lines += ["facet normal " + " ".join(f"{k:.6e}" for k in normal), " outer loop"]
+        lines += ["  vertex " + " ".join(map(repr, point)) for point in triangle]
+        lines += [" endloop", "endfacet"]
+    return "\n".join([*lines, f"endsolid foldshell {design}, metres", ""])
 
 
 def write_ply(model: ExportModel, paths: tuple[Path, ...], options: ExportOptions) -> None:
@@ -105,6 +127,11 @@ def write_glb(model: ExportModel, paths: tuple[Path, ...], options: ExportOption
     for surface, path in zip(_surfaces(model), paths, strict=True):
         scene = trimesh.Scene()
         turned = surface.points[:, [0, 2, 1]] * [1.0, 1.0, -1.0]
+        place = None
+        if is_far(surface.points):
+            place = np.eye(4)
+            place[:3, 3] = turned.mean(axis=0)
+            turned = turned - place[:3, 3]
         for number in np.unique(classes[surface.panel]).tolist():
             own = surface.triangles[classes[surface.panel] == number]
             # each triangle has corners of its own, so that folds stay sharp
@@ -116,6 +143,7 @@ def write_glb(model: ExportModel, paths: tuple[Path, ...], options: ExportOption
                 metallicFactor=0.0, roughnessFactor=0.8,
             )  # fmt: skip
             mesh.visual = trimesh.visual.TextureVisuals(material=material)
-            scene.add_geometry(mesh, node_name=f"class{number}", geom_name=f"class{number}")
+            name = f"class{number}"
+            scene.add_geometry(mesh, node_name=name, geom_name=name, transform=place)
         with atomic_path(path) as temporary:
             temporary.write_bytes(scene.export(file_type="glb"))

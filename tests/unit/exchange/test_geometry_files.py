@@ -3,6 +3,7 @@
 import itertools
 import json
 import math
+from dataclasses import replace
 
 import meshio
 import numpy as np
@@ -15,6 +16,7 @@ from foldshell.exchange.mesh_files import write_glb, write_obj, write_ply, write
 from foldshell.exchange.options import PACKAGES, ExportOptions, load_library
 from foldshell.exchange.rhino import hash_3dm, write_3dm
 from foldshell.files.errors import InputError
+from foldshell.files.meshes.read import read_mesh
 from foldshell.settings.exports import FORMATS as NAMES
 
 ALL = pytest.mark.parametrize("case", CASES)
@@ -144,6 +146,29 @@ def test_meshes_read_back(tmp_path):
     points = meshio.read(tmp_path / "sheet.obj").points
     assert np.array_equal(points, model.vertices)
     assert "usemtl class2" in (tmp_path / "sheet.obj").read_text()
+
+
+@pytest.mark.parametrize("name", ["obj", "stl", "ply", "glb"])
+def test_a_sheet_on_a_national_grid_keeps_its_digits(tmp_path, name):
+    """Single precision has 0.5 m left there: STL becomes text, GLB is moved by a transformation."""
+    trimesh = pytest.importorskip("trimesh")
+    model = make_export_model(tmp_path, **CASES[next(iter(CASES))])
+    place = np.array([690_000.0, 5_334_000.0, 520.0])
+    far = replace(model, vertices=model.vertices + place)
+    files = tuple(tmp_path / f"{part}.{end}" for part, end in
+                  (("sheet", name), ("solid", name), ("sheet", "mtl")))  # fmt: skip
+    writers = {"obj": write_obj, "stl": write_stl, "ply": write_ply, "glb": write_glb}
+    writers[name](far, files if name == "obj" else files[:2], ExportOptions())
+    if name == "glb":
+        scene = trimesh.load_scene(files[0])
+        points = np.vstack([
+            scene.geometry[scene.graph[node][1]].vertices.astype(float)
+            + scene.graph[node][0][:3, 3] for node in scene.graph.nodes_geometry
+        ])[:, [0, 2, 1]] * [1, -1, 1]  # fmt: skip
+    else:
+        points = read_mesh(files[0]).vertices
+    gaps = np.linalg.norm(points[:, None] - far.vertices[None], axis=2)
+    assert gaps.min(axis=1).max() < 1e-6 and gaps.min(axis=0).max() < 1e-6
 
 
 @pytest.mark.parametrize("name", ["obj", "stl", "ply", "glb", "ifc", "saf", "s2k", "inp",

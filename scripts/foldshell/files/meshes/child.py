@@ -4,8 +4,8 @@
 and ends with REFUSED. Imports nothing of this project, so that it starts alone.
 """
 
+import contextlib
 import re
-import resource
 import sys
 from pathlib import Path
 
@@ -199,10 +199,18 @@ def _check_sections(data: bytes) -> None:
             raise Refused(f"the section ${name.decode()} has no end: damaged or cut off")
 
 
+def _limit() -> None:
+    """Bound the memory, and leave no core file, on systems that can."""
+    with contextlib.suppress(ImportError, ValueError, OSError):
+        import resource
+
+        resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
+        resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+
+
 def main(path: str, out: str) -> int:
     """Read `path`; write `out` or print why not. Return the exit code."""
-    resource.setrlimit(resource.RLIMIT_CORE, (0, 0))
-    resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
+    _limit()
     try:
         read = read_gmsh if Path(path).suffix.lower() == ".msh" else read_vtk
         arrays = read(path)
