@@ -16,9 +16,9 @@ MB_AND_PER_NODE: Mapping[str, tuple[float, float]] = MappingProxyType({
     "mesh": (200, 0.002),
     "analyse": (420, 0.031),
     "mesh_convergence": (250, 0.072),
-    "compare": (150, 0.072),
-    "draw": (600, 0.002),
-    "page": (150, 0.010),
+    "compare": (220, 0.075),
+    "draw": (640, 0.002),
+    "page": (175, 0.010),
 })  # fmt: skip
 """By rule: memory (MB) without a mesh, and for each node of the mesh that designs are sized on."""
 

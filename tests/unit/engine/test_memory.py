@@ -15,9 +15,10 @@ from foldshell.shell.mesh import build_mesh
 
 MEASURED = {
     "analyse": {5396: 551, 22776: 939, 40376: 1570},
-    "mesh_convergence": {5396: 555, 40376: 3000},
-    "compare": {5396: 468, 40376: 2908},
-    "draw": {5396: 572, 40376: 627},
+    "mesh_convergence": {5396: 555, 22776: 1786, 40376: 3000},
+    "compare": {5396: 558, 22776: 1909, 40376: 2908},
+    "draw": {5396: 631, 22776: 631, 40376: 627},
+    "page": {5396: 213, 22776: 375, 40376: 534},
 }
 """Largest resident memory (MB) of jobs by nodes, two-core machine, 29 November 2026."""
 
