@@ -36,7 +36,8 @@ if __name__ == "__main__":
     parser.add_argument("results", nargs="?", default="results")
     parser.add_argument("--repair", action="store_true")
     parser.add_argument("--recompute", action="append", default=[], metavar="DESIGN")
-    given = parser.parse_args()
+    task = globals().get("snakemake")
+    given = parser.parse_args([task.params.results] if task else None)
     if given.results.endswith(".zip"):
         run(lambda: verify_archive(given.results, given.recompute))
     run(lambda: main(given.results, given.repair))
