@@ -12,7 +12,7 @@ EDGE_BEAM = (190, 190, 190)
 def class_colours(model: ExportModel) -> dict[int, tuple[int, int, int]]:
     """Return a colour for each thickness class, 0 for panels of none."""
     numbers = sorted({panel.thickness_class for panel in model.panels} - {0})
-    scale = ColourScale(1.0, max(numbers, default=2) or 2.0)
+    scale = ColourScale(1.0, max([2, *numbers]), "YlGnBu")
     found = {number: tuple(scale.colour(float(number)).tolist()) for number in numbers}
     return {0: EDGE_BEAM, **found}
 

@@ -7,6 +7,7 @@ shapely before it counts: inside its sheet, no two panels over one another.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import zip_longest
 
 import numpy as np
 
@@ -73,7 +74,8 @@ def _nest_group(outlines: dict[int, np.ndarray], length: float, width: float, se
     mean = np.mean([_area(outline) for outline in outlines.values()])
     packer = RowPacker(outlines, length, width, GAP)
     if length * width < MANY * mean:
-        return [(row.keys, row.outlines) for row in packer.fill()], packer.oversize
+        single = [(row.keys, row.outlines) for row in packer.fill()]
+        return min(single, _in_two_rows(outlines, length, width), key=len), packer.oversize
     left = {key: outlines[key] for key in packer.turns}
     sheets = []
     while left:
@@ -82,6 +84,32 @@ def _nest_group(outlines: dict[int, np.ndarray], length: float, width: float, se
         for key in keys:
             del left[key]
     return sheets, packer.oversize
+
+
+def _in_two_rows(outlines: dict[int, np.ndarray], length: float, width: float):
+    """Lay panels of at most half the sheet's width in two rows a sheet, the others in one."""
+    half = (width - GAP) / 2
+    thin = {key: outline for key, outline in outlines.items() if least_width(outline) <= half}
+    thick = {key: outline for key, outline in outlines.items() if key not in thin}
+    sheets = [(row.keys, row.outlines) for row in RowPacker(thick, length, width, GAP).fill()]
+    packer = RowPacker(thin, length, half, GAP)
+    rows = packer.fill()
+    for low, high in zip_longest(rows[::2], rows[1::2]):
+        keys, places = list(low.keys), list(low.outlines)
+        if high is not None:
+            keys += high.keys
+            places += [outline + np.array([0.0, half + GAP]) for outline in high.outlines]
+        sheets.append((tuple(keys), tuple(places)))
+    return sheets
+
+
+def least_width(outline: np.ndarray) -> float:
+    """Return the least distance of parallels that hold a convex outline (k, 2) between them, m."""
+    along = np.roll(outline, -1, axis=0) - outline
+    unit = along / np.linalg.norm(along, axis=1, keepdims=True)
+    away = unit[:, 0, None] * (outline[:, 1] - outline[:, 1, None])
+    away -= unit[:, 1, None] * (outline[:, 0] - outline[:, 0, None])
+    return float(np.ptp(away, axis=1).min())
 
 
 def _fill_sheet(left: dict[int, np.ndarray], length: float, width: float, seconds: int):

@@ -121,7 +121,7 @@ def _open_scene(model: ExportModel) -> _Scene:
     for name, (red, green, blue) in colours.items():
         layer = rhino.Layer()
         layer.Name, layer.Color = name, (red, green, blue, 255)
-        layer.Visible = not name.startswith("LOADS") or name == "LOADS LL"
+        layer.Visible = not name.startswith("LOADS")
         scene.layers[name] = file.Layers.Add(layer)
     return scene
 

@@ -15,6 +15,8 @@ STEP_DEG, FINE_DEG, ROWS = 6.0, 0.1, 61
 outlines are compared."""
 TRIES = 60
 """Panels that are tried for a place in vain before a row is closed."""
+MOST, STEPS = 7, 12
+"""Most panels of a row that is filled by length, and the tries for it."""
 
 
 @dataclass(frozen=True)
@@ -101,24 +103,78 @@ class RowPacker:
             self.turns.pop(key, None)
         self.area = {key: _area(outlines[key]) for key in self.turns}
         self.measures = {key: _measure(outlines[key]) for key in self.turns}
+        self.alone = {key: self._measure_alone(key) for key in self.turns}
 
     def fill(self) -> list[Row]:
-        """Fill rows until the stock is used up."""
+        """Fill rows until the stock is used up, by the better of two ways to share them out."""
+        return min((self._fill_alike(), self._fill_by_length()), key=len)
+
+    def _fill_alike(self) -> list[Row]:
+        """Begin with the largest panel, and add of those most like it what still fits."""
         left, rows = set(self.turns), []
         while left:
-            keys = self._choose(left)
-            rows.append(self._place(keys))
+            seed = max(left, key=lambda key: (self.area[key], -key))
+            others = sorted(left - {seed}, key=lambda key: (self._differ(seed, key), key))
+            rows.append(self._place(self._extend(seed, others)))
             left -= set(rows[-1].keys)
         return rows
 
-    def _choose(self, left: set[int]) -> list[int]:
-        """Return the keys of a row: the largest panel, and of those most like it what still fits.
+    def _fill_by_length(self) -> list[Row]:
+        """Fill rows with as many panels as go into one, long panels beside short ones; what is left
+        over goes into rows with one less."""
+        left, rows = set(self.turns), []
+        for count in range(MOST, 0, -1):
+            aside = set()
+            while left:
+                seed = max(left, key=lambda key: (self.alone[key][count - 1], -key))
+                left.remove(seed)
+                row = self._match(seed, left, count)
+                if row is None:
+                    aside.add(seed)
+                else:
+                    rows.append(row)
+                    left -= set(row.keys)
+            left = aside
+        return rows
 
-        Like panels leave least between them.
-        """
-        seed = max(left, key=lambda key: (self.area[key], -key))
-        others = sorted(left - {seed}, key=lambda key: (self._differ(seed, key), key))
-        return self._extend(seed, others)
+    def _match(self, seed: int, left: set[int], count: int) -> Row | None:
+        """Return a row of a seed and others whose mean length in a row of their like is short
+        enough, the longest such that fit; None where there are none."""
+        own = {key: self.alone[key][count - 1] for key in left if self._alike(seed, key)}
+        room = count * self.length - self.alone[seed][count - 1]
+        room = room / (count - 1) if count > 1 else room
+        stock = sorted((key for key in own if own[key] <= room), key=lambda key: (-own[key], key))
+        if len(stock) < count - 1 or room < 0:
+            return None
+        last = len(stock) - count + 1
+        for skip in sorted({round(last * k / STEPS) for k in range(STEPS + 1)}):
+            keys = sorted([seed, *stock[skip : skip + count - 1]], key=self._lean)
+            row = self._place(keys)
+            if len(row.keys) == count:
+                return row
+        return None
+
+    def _lean(self, key: int) -> tuple[float, int]:
+        """Return how far a panel leans, m: neighbours in a row should lean alike."""
+        measures = self.measures[key]
+        return (float(measures[2] - measures[3]) if len(measures) == 4 else 0.0), key
+
+    def _alike(self, one: int, other: int) -> bool:
+        """Whether two panels lean to the same side."""
+        first, second = self.measures[one], self.measures[other]
+        if len(first) != len(second):
+            return False
+        return len(first) != 4 or (first[2] > first[3]) == (second[2] > second[3])
+
+    def _measure_alone(self, key: int) -> list[float]:
+        """Return the length of rows of 1, 2, ... such panels, m."""
+        turns = self.turns[key]
+        slide = _slides(turns, turns, self.gap)
+        start, lengths = np.zeros(len(turns.width)), []
+        for _ in range(MOST):
+            lengths.append(float((start + turns.width).min()))
+            start = (start[:, None] + slide).min(axis=0)
+        return lengths
 
     def _differ(self, one: int, other: int) -> float:
         """Return how much the sides and diagonals of two panels differ, m."""
