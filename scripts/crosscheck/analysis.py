@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from crosscheck.discretisation import Discretisation, discretise, hold_edges
+from crosscheck.discretisation import Discretisation, discretise
 from crosscheck.errors import CrosscheckError, MechanismError
 from crosscheck.frontal import NotPositiveDefinite, Plan
 from crosscheck.loads import combine_cases, compute_surface_loads, distribute_loads
@@ -14,6 +14,7 @@ from crosscheck.model import Model
 from crosscheck.reactions import sum_supports
 from crosscheck.records import MULTIFRONTAL, SCIPY
 from crosscheck.stress import compute_panel_means, compute_percentile, compute_utilization
+from crosscheck.supports import hold_supports
 from crosscheck.system import (
     SHEAR_FACTOR,
     Response,
@@ -52,7 +53,7 @@ def analyse_model(
     MULTIFRONTAL, or SCIPY for the plain path.
     """
     build, solve = _choose_solver(solver)
-    hold = hold_edges(model.supported_edges)
+    hold = hold_supports(model.supports, model.vertices)
     grid = discretise(model.vertices, model.facets, hold, subdivisions, plan=plan)
     material = model.material
     section = Section(
@@ -62,7 +63,7 @@ def analyse_model(
         system = build(grid, section)
     except NotPositiveDefinite:
         raise MechanismError(
-            "model: supported_edges: these let the shell move: allowed are edges that hold it"
+            "model: supports: these let the shell move: allowed are such as hold it"
         ) from None
     loads = compute_surface_loads(model, grid.axes[:, 2])
     surface = combine_cases(loads, model.compared_combinations)

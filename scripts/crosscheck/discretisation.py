@@ -5,9 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from crosscheck.element import Quadrature, integrate_elements
-from crosscheck.frames import build_facet_axes, build_skeleton, transform_outline
+from crosscheck.frames import Skeleton, build_facet_axes, build_skeleton, transform_outline
 from crosscheck.frontal import Plan, Spans, plan_elimination
 from crosscheck.mesh import GRADING, Mesh, build_mesh
+from crosscheck.supports import Boundary
 
 
 @dataclass(frozen=True)
@@ -21,6 +22,7 @@ class Discretisation:
     quadrature: Quadrature
     turn: np.ndarray  # (F, 12m, 5, 6) local unknowns from skeleton unknowns
     equations: np.ndarray  # (F, 12m, 6), -1 where held
+    springs: np.ndarray | None  # (F, 12m, 3) kN/m, each node's in one of its facets; None for none
     size: int
     spans: Spans  # equations of each vertex and edge
     plan: Plan
@@ -46,7 +48,7 @@ def discretise(
     grading: float = GRADING,
     plan: Plan | None = None,
 ) -> Discretisation:
-    """Mesh the facets; `hold(mesh)` tells which skeleton translations (S, 3) are fixed.
+    """Mesh the facets; `hold(mesh)` is their boundary, or the translations (S, 3) that are held.
 
     `plan` is that of `plan_facets`, made here where it is not given.
 
@@ -57,8 +59,10 @@ def discretise(
     offset = mesh.nodes[mesh.facet_nodes] - vertices[facets[:, 0]][:, None]
     elements = mesh.reference.blocks[:, mesh.reference.elements]
     coordinates = (offset @ np.swapaxes(axes[:, :2], 1, 2))[:, elements]
-    skeleton = build_skeleton(mesh, axes)
-    equations, spans = number_equations(mesh, skeleton.flat, hold(mesh))
+    found = hold(mesh)
+    boundary = found if isinstance(found, Boundary) else Boundary(found)
+    skeleton = build_skeleton(mesh, axes, boundary.clamped)
+    equations, spans = number_equations(mesh, skeleton, boundary.held)
     return Discretisation(
         mesh,
         axes,
@@ -67,20 +71,21 @@ def discretise(
         integrate_elements(coordinates),
         transform_outline(skeleton),
         equations,
+        _place_springs(mesh, boundary.spring),
         int(spans.count.sum()),
         spans,
         plan or plan_facets(vertices, facets),
     )
 
 
-def number_equations(mesh: Mesh, flat: np.ndarray, held: np.ndarray) -> tuple[np.ndarray, Spans]:
+def number_equations(mesh: Mesh, skeleton: Skeleton, held: np.ndarray) -> tuple[np.ndarray, Spans]:
     """Equation numbers (F, 12m, 6) of the outline unknowns, and which belong to a vertex or edge.
 
     `held` (S, 3) are translations. Vertices come first, then the insides of the edges.
     """
     free = np.ones((mesh.skeleton, 6), bool)
     free[:, :3] = ~held
-    free[:, 5] = ~flat
+    free[:, 3:] = ~skeleton.turned
     number = np.where(free.ravel(), np.cumsum(free.ravel()) - 1, -1).reshape(free.shape)
     own = free.sum(axis=1)
     vertices = mesh.edge_nodes[0, 1]  # the first node inside an edge
@@ -89,15 +94,12 @@ def number_equations(mesh: Mesh, flat: np.ndarray, held: np.ndarray) -> tuple[np
     return number[mesh.facet_nodes[:, : mesh.reference.outline]], spans
 
 
-def hold_edges(supported: np.ndarray):
-    """Pins (no translation) at every mesh node on the given vertex pairs (S, 2), as numbers."""
-
-    def hold(mesh: Mesh) -> np.ndarray:
-        """Held translations of the nodes on the outlines of facets: (N, 3)."""
-        pairs = {tuple(sorted(pair)) for pair in supported.tolist()}
-        on = [tuple(edge) in pairs for edge in mesh.edges.tolist()]
-        held = np.zeros((mesh.skeleton, 3), bool)
-        held[mesh.edge_nodes[on].ravel()] = True
-        return held
-
-    return hold
+def _place_springs(mesh: Mesh, spring: np.ndarray | None) -> np.ndarray | None:
+    """Springs (S, 3) of nodes at the first place (F, 12m, 3) where a facet has them."""
+    if spring is None:
+        return None
+    outline = mesh.facet_nodes[:, : mesh.reference.outline]
+    _, first = np.unique(outline, return_index=True)
+    placed = np.zeros((outline.size, 3))
+    placed[first] = spring
+    return placed.reshape(*outline.shape, 3)

@@ -7,10 +7,12 @@ from typing import Any
 import numpy as np
 
 from crosscheck.reading import Place, read_json
+from crosscheck.supports import Support, read_pins, read_supports
 
 FORMATS = tuple(f"foldshell-neutral-model {number}" for number in (1, 2, 3))
-"""The second may name panels that carry their own weight only; the third names its supports, may
-compare several combinations of a kind, and says what the criteria allow."""
+"""The second may name panels that carry their own weight only; the third names its supports, which
+may hold single directions, clamp edges and be springs, may compare several combinations of a kind,
+and says what the criteria allow."""
 CASES = ("SW", "SDL", "LL", "WX", "WY")
 FORMER_AREAS = {"mesh": "sheet", "plan": "plan_abs"}
 """Words of older model files."""
@@ -42,14 +44,6 @@ class Loads:
     wind_fraction: float
     area_basis: str  # sheet | plan_abs
     dead_side: str  # downward | sheet
-
-
-@dataclass(frozen=True)
-class Support:
-    """Facet sides that are pinned, under one name."""
-
-    name: str
-    edges: np.ndarray  # (K, 2) vertex pairs
 
 
 @dataclass(frozen=True)
@@ -100,7 +94,10 @@ def read_model(path: str | Path) -> Model:
     thickness = root.key("panel_thickness_m").numbers(None, above=0.0)
     panel = root.key("facet_panel").indices(None, len(thickness))
     _check_facets(root, vertices, facets, panel, len(thickness))
-    supports = _read_supports(root, format_name, facets, len(vertices))
+    if format_name == FORMATS[-1]:
+        supports = read_supports(root, facets, len(vertices))
+    else:
+        supports = read_pins(root.key("supported_edges"), facets, len(vertices))
     combinations = _read_combinations(root.key("combinations"))
     compared = {
         kind: _read_compared(root.key("compare").key(kind), format_name, list(combinations))
@@ -159,34 +156,6 @@ def _read_limits(place: Place) -> dict[str, float]:
         if name not in LIMITS:
             place.refuse(name, "one of " + ", ".join(LIMITS))
     return {name: place.key(name).number(above=0.0) for name in place.names()}
-
-
-def _read_supports(
-    root: Place, format_name: str, facets: np.ndarray, vertices: int
-) -> tuple[Support, ...]:
-    """Supports by name; before format 3 all supported edges are one."""
-    if format_name == FORMATS[-1]:
-        entries = root.key("supports").entries()
-        places = [(entry.key("name").text(), entry.key("edges")) for entry in entries]
-    else:
-        places = [("supports", root.key("supported_edges"))]
-    names = [name for name, _ in places]
-    if len(set(names)) < len(names):
-        root.key("supports").refuse(names, "a name of its own for each support")
-    supports = []
-    for name, place in places:
-        edges = place.indices(2, vertices)
-        _check_sides(place, facets, edges)
-        supports.append(Support(name, edges))
-    return tuple(supports)
-
-
-def _check_sides(place: Place, facets: np.ndarray, edges: np.ndarray) -> None:
-    sides = np.sort(np.stack([facets, np.roll(facets, -1, axis=1)], axis=2).reshape(-1, 2), axis=1)
-    known = {tuple(side) for side in sides.tolist()}
-    for k, edge in enumerate(np.sort(edges, axis=1).tolist()):
-        if tuple(edge) not in known:
-            place.at(k).refuse(edge, "two vertices that share a facet side")
 
 
 def _read_material(place: Place) -> Material:

@@ -54,6 +54,11 @@ def divide_facets(model: Model, subdivisions: int) -> ShellGrid:
 
     The loads are those of the compared combinations.
     """
+    if not all(support.is_pin for support in model.supports):
+        raise CrosscheckError(
+            f"{model.design}: supports: crosscheck_opensees knows edges that are pinned along x, y "
+            "and z: other supports are not allowed here"
+        )
     n, facets = subdivisions, model.facets
     lattice = np.array([(n - i - j, i, j) for j in range(n + 1) for i in range(n + 1 - j)])
     vertex = np.where(lattice > 0, facets[:, None], -1)  # (F, L, 3)

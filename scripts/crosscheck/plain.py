@@ -7,7 +7,8 @@ displacements, three rotations), five at a node inside a facet. So
 
     d = T x                       a facet moves with the shell's unknowns   `connect_facets`
     S = sum of element matrices   on d, facet by facet                      `assemble`
-    K = T' S T,   K x = T' f      equilibrium under forces f on d           `solve_plain_loads`
+    K = T' S T + springs          of elastic supports                       `collect_springs`
+    K x = T' f                    equilibrium under forces f on d           `solve_plain_loads`
     r = C' (S d - f)              supports, C being T and what they hold    `find_plain_reactions`
     (K + c G(u)) v = 0            buckling: G of first order, least c > 0   `find_plain_factors`
     (K + G(u)) x = T' f           second order: G of the state itself       `find_plain_state`
@@ -20,7 +21,7 @@ element matrices, loads and membrane forces N are those of `element.py`, `loads.
 from dataclasses import dataclass, replace
 
 import numpy as np
-from scipy.sparse import coo_matrix, csc_matrix, csr_matrix
+from scipy.sparse import coo_matrix, csc_matrix, csr_matrix, diags
 from scipy.sparse.linalg import LinearOperator, SuperLU, eigsh, splu
 
 from crosscheck.discretisation import Discretisation
@@ -42,6 +43,7 @@ class PlainSystem:
     connection: csr_matrix  # (N, n) T
     whole: csr_matrix  # (N, A) C: T, and the columns of what is held
     free: np.ndarray  # (A,) which columns of C make up T
+    springs: np.ndarray  # (A,) kN/m of supports, 0 for none
     elements: csr_matrix  # (N, N) S, kN/m
     stiffness: csc_matrix  # (n, n) K
     factor: SuperLU  # of K
@@ -57,13 +59,14 @@ def build_plain_system(grid: Discretisation, section: Section) -> PlainSystem:
     elements = assemble(grid, membrane, [0, 1]) + assemble(grid, plate, [2, 3, 4])
     whole, free = connect_facets(grid)
     connection = whole[:, free]
-    stiffness = (connection.T @ elements @ connection).tocsc()
+    springs = collect_springs(grid, len(free))
+    stiffness = (connection.T @ elements @ connection + diags(springs[free])).tocsc()
     factor = factor_symmetric(stiffness)
     softest = factor.solve(np.random.default_rng(0).normal(size=len(stiffness.indptr) - 1))
     energy, scale = softest @ (stiffness @ softest), softest @ (stiffness.diagonal() * softest)
     if not energy > ROUNDING * scale:
         raise NotPositiveDefinite("a direction has no positive stiffness")
-    return PlainSystem(grid, section, connection, whole, free, elements, stiffness, factor)
+    return PlainSystem(grid, section, connection, whole, free, springs, elements, stiffness, factor)
 
 
 def assemble(grid: Discretisation, matrices: np.ndarray, components: list[int]) -> csr_matrix:
@@ -98,6 +101,15 @@ def connect_facets(grid: Discretisation) -> tuple[csr_matrix, np.ndarray]:
     return coo_matrix((value, (rows, columns)), (local.size, len(free))).tocsr(), free
 
 
+def collect_springs(grid: Discretisation, count: int) -> np.ndarray:
+    """Stiffness of supports against each unknown: (A,) in kN/m."""
+    springs = np.zeros(count)
+    if grid.springs is not None:
+        unknown = 6 * grid.mesh.facet_nodes[:, : grid.springs.shape[1], None] + np.arange(3)
+        np.add.at(springs, unknown, grid.springs)
+    return springs
+
+
 def factor_symmetric(matrix: csc_matrix) -> SuperLU:
     """L U of a symmetric matrix, with its pivots on the diagonal. Raises NotPositiveDefinite."""
     options = {"SymmetricMode": True}
@@ -123,9 +135,12 @@ def solve_plain_sheared(system: PlainSystem, forces: np.ndarray, shear_factor: f
 def find_plain_reactions(
     system: PlainSystem, elements: csr_matrix, local: np.ndarray, load: np.ndarray
 ) -> np.ndarray:
-    """r = C' (S d - f) of every node on folds and borders: (S, 3, c) in kN, zero where free."""
+    """r = C' (S d - f) of every node on folds and borders: (S, 3, c) in kN, zero where free.
+
+    A spring's is -k u, since there S d - f is what it carries.
+    """
     force = system.whole.T @ (elements @ _flatten(local) - _flatten(load))
-    force[system.free] = 0.0  # but for rounding it is
+    force[system.free & (system.springs == 0)] = 0.0  # but for rounding it is
     return force[: 6 * system.grid.mesh.skeleton].reshape(-1, 6, force.shape[1])[:, :3]
 
 

@@ -4,6 +4,7 @@ import numpy as np
 
 from crosscheck.mesh import Mesh
 from crosscheck.model import Model
+from crosscheck.supports import share_nodes
 
 
 def sum_supports(model: Model, mesh: Mesh, reactions: np.ndarray) -> dict[str, np.ndarray]:
@@ -11,20 +12,8 @@ def sum_supports(model: Model, mesh: Mesh, reactions: np.ndarray) -> dict[str, n
 
     A node where two supports meet, at a corner, counts by half for each.
     """
-    shares = share_nodes(model, mesh)
-    return {name: np.einsum("s,sxc->xc", share, reactions) for name, share in shares.items()}
-
-
-def share_nodes(model: Model, mesh: Mesh) -> dict[str, np.ndarray]:
-    """How much of each skeleton node (S,) counts for each support; supports of a node share it."""
-    place = {tuple(edge): k for k, edge in enumerate(mesh.edges.tolist())}
-    on = {}
-    for support in model.supports:
-        sides = [place[tuple(side)] for side in np.sort(support.edges, axis=1).tolist()]
-        on[support.name] = np.zeros(mesh.skeleton)
-        on[support.name][mesh.edge_nodes[sides].ravel()] = 1.0
-    count = np.maximum(sum(on.values()), 1.0)
-    return {name: held / count for name, held in on.items()}
+    shares = share_nodes(model.supports, mesh)
+    return {name: np.einsum("sx,sxc->xc", share, reactions) for name, share in shares.items()}
 
 
 def find_thrusts(model: Model) -> dict[str, np.ndarray]:
@@ -37,7 +26,7 @@ def find_thrusts(model: Model) -> dict[str, np.ndarray]:
     middle = plan.mean(axis=0)
     result = {}
     for support in model.supports:
-        points = plan[np.unique(support.edges)]
+        points = plan[np.union1d(support.edges, support.vertices).astype(int)]
         centre = points.mean(axis=0)
         inward = middle - centre
         _, spread, axes = np.linalg.svd(points - centre)

@@ -20,6 +20,7 @@ from crosscheck.facet import (
     store,
 )
 from crosscheck.frontal import Factor, factor_sum
+from crosscheck.holding import Holding, add_springs, find_reactions, make_holding
 
 SHEAR_FACTOR = 100.0
 """Thin limit: shear deformation is that of a plate ten times thinner. 5/6 is the physical plate."""
@@ -39,14 +40,6 @@ class Section:
     youngs_modulus: float
     poissons_ratio: float
     shear_factor: float = SHEAR_FACTOR
-
-
-@dataclass(frozen=True)
-class Holding:
-    """Rows of stiffness at held translations: H facets that have such nodes, global x, y, z."""
-
-    facets: np.ndarray  # (H,)
-    rows: np.ndarray  # (H, 12m, 3, 72m) kN/m, zero where nothing is held
 
 
 @dataclass(frozen=True)
@@ -146,11 +139,8 @@ class _Condenser:
     def condense(self) -> Iterator[np.ndarray]:
         """Yield the skeleton stiffness (72m, 72m) of one facet after the other."""
         grid = self.grid
-        held = (grid.equations[:, :, :3] < 0).astype(float)
-        count, nodes = held.shape[:2]
-        facets = np.flatnonzero(held.any(axis=(1, 2)))
-        self.holding = Holding(facets, np.zeros((len(facets), nodes, 3, 6 * nodes)))
-        rank = np.cumsum(held.any(axis=(1, 2))) - 1
+        self.holding = make_holding(grid)
+        count = len(grid.equations)
         chunk = max(1, CHUNK // grid.elements.shape[0] // grid.elements.shape[1])
         for start in range(0, count, chunk):
             part = grid.plan.facets[start : start + chunk]
@@ -166,9 +156,9 @@ class _Condenser:
                 store(self.fields[k], part, field_part)
                 outlines.append(outline)
             total = turn_stiffness(join_fields(*outlines), grid.turn[part])
-            for k in np.flatnonzero(held[part].any(axis=(1, 2))):
-                rows = total[k].reshape(nodes, 6, -1)[:, :3]
-                self.holding.rows[rank[part[k]]] = held[part[k]][:, :, None] * rows
+            if grid.springs is not None:
+                add_springs(total, grid.springs[part])
+            self.holding.keep(part, total)
             yield from total
 
 
@@ -231,7 +221,11 @@ class Solution:
 def complete_response(system: System, solution: Solution) -> Response:
     """Global displacements and reactions, which an iteration needs once only."""
     state = place_state(system, solution.local)
-    return Response(state.local, state.displacement, _find_reactions(system, solution))
+    return Response(
+        state.local,
+        state.displacement,
+        find_reactions(system.grid, system.holding, solution.outline, solution.load),
+    )
 
 
 def place_state(system: System, local: np.ndarray) -> State:
@@ -273,17 +267,3 @@ def _gather(grid: Discretisation, outline: np.ndarray) -> np.ndarray:
     place = np.where(grid.equations >= 0, grid.equations, grid.size).ravel()
     columns = outline.reshape(-1, outline.shape[-1]).T
     return np.array([np.bincount(place, x, grid.size + 1)[: grid.size] for x in columns]).T
-
-
-def _find_reactions(system: System, solution: Solution) -> np.ndarray:
-    """K u - F at the held translations of skeleton nodes: (S, 3, c) in kN."""
-    grid, facets = system.grid, system.holding.facets
-    count, nodes, _, cases = solution.outline[facets].shape
-    own = solution.outline[facets].reshape(count, 1, -1, cases)
-    force = (system.holding.rows.reshape(count, 1, 3 * nodes, -1) @ own)[:, 0]
-    force = force.reshape(count, nodes, 3, cases)
-    held = grid.equations[facets, :, :3] < 0
-    force -= solution.load[facets, :, :3] * held[..., None]
-    total = np.zeros((grid.mesh.skeleton, 3, cases))
-    np.add.at(total, grid.mesh.facet_nodes[facets, :nodes], force)
-    return total

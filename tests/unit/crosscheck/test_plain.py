@@ -105,7 +105,7 @@ def test_a_shell_that_can_move_is_refused(tmp_path):
     for vertex in data["vertices_m"]:
         vertex[2] = 0.0
     model = read_model(write_model(tmp_path / "model.json", data))
-    with pytest.raises(MechanismError, match="supported_edges"):
+    with pytest.raises(MechanismError, match="supports"):
         analyse_model(model, 1, solver=SCIPY)
 
 

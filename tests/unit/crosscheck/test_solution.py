@@ -5,12 +5,12 @@ import pytest
 from scipy.sparse.linalg import splu
 
 from crosscheck.analysis import analyse_model, list_values
-from crosscheck.discretisation import hold_edges
 from crosscheck.errors import CrosscheckError
 from crosscheck.facet import condense_facets
 from crosscheck.frontal import NotPositiveDefinite, Spans, factor_sum, plan_elimination
 from crosscheck.mesh import build_mesh
 from crosscheck.model import read_model
+from crosscheck.supports import hold_supports
 from crosscheck.system import (
     compute_element_matrices,
     join_fields,
@@ -60,7 +60,7 @@ def test_a_shell_that_can_move_is_refused(tmp_path):
     for vertex in data["vertices_m"]:
         vertex[2] = 0.0
     model = read_model(write_model(tmp_path / "model.json", data))
-    with pytest.raises(CrosscheckError, match="supported_edges"):
+    with pytest.raises(CrosscheckError, match="supports"):
         analyse_model(model, 1)
 
 
@@ -76,7 +76,7 @@ def test_mesh_nodes_are_shared_and_cover_the_facets(model):
 
 def test_every_node_on_a_supported_edge_is_held(model):
     mesh = build_mesh(model.vertices, model.facets, 2)
-    held = hold_edges(model.supported_edges)(mesh)
+    held = hold_supports(model.supports, model.vertices)(mesh).held
     assert held[:, 0].sum() == 6 * 7 + 8  # seven nodes inside an edge, four ends a line
     ends = model.vertices[[0, 3, 8, 11], 1]
     assert set(np.round(mesh.nodes[: mesh.skeleton][held[:, 0], 1], 9)) == set(ends)
