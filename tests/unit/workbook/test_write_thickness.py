@@ -90,7 +90,7 @@ def test_sheets_headers_units_and_results(tmp_path):
     assert sheet["H3"].data_type == "s" and sheet["H3"].value == "=1+1"  # text stays text
     assert sheet.freeze_panes == "B3"
     assert sheet.print_title_rows == "$1:$2"
-    assert (sheet.page_setup.orientation, sheet.page_setup.paperSize) == ("portrait", 9)
+    assert (sheet.page_setup.orientation, sheet.page_setup.paperSize) == ("landscape", 9)
     assert sheet.page_setup.fitToWidth in (None, 1) and sheet.page_setup.fitToHeight == 0
 
 
