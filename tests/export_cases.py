@@ -66,6 +66,11 @@ def make_export_model(folder, bent=0.0, beam=False, thickness=None, **config):
     return read_export_model(paths, DESIGN, stage_settings(**config))
 
 
+def support_edges(model):
+    """Return the edges of all supports, (K, 2)."""
+    return np.concatenate([support.edges for support in model.supports])
+
+
 CASES = {
     "planar": {},
     "bent": {"bent": 0.02},

@@ -18,6 +18,7 @@ import numpy as np
 import pytest
 from exported_designs import COMPARED, NAMES, export_design
 
+from export_cases import support_edges
 from foldshell.exchange import opensees
 from foldshell.exchange.calculix import deck
 from foldshell.exchange.fe_mesh import _bilinear, divide_facets
@@ -172,7 +173,7 @@ def own_values(model):
     """Return displacement of D2 (m, first order) and factor of S2 on a mesh of order 7: the limit
     of the project's own element to about 1 %."""
     mesh = build_mesh(model.vertices, model.facets, model.facet_panel, 4, 7 + 1)
-    nodes = edge_polyline_nodes(mesh, model.supports[0].edges)
+    nodes = edge_polyline_nodes(mesh, support_edges(model))
     shell = build_model(mesh, nodes, model.material.poissons_ratio)
     cases = make_load_cases(Loads(), model.material.unit_weight)
     kept = {name: model.combinations[name] for name in ("S2", "D2")}

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from foldshell.exchange.fe_mesh import QuadMesh, divide_facets
+from foldshell.exchange.fe_mesh import QuadMesh, divide_facets, held_nodes
 from foldshell.exchange.model import ExportModel, load_on_facets
 from foldshell.exchange.options import ExportOptions
 from foldshell.files.whole import atomic_path
@@ -95,13 +95,12 @@ def _property_lines(model: ExportModel) -> list[str]:
 
 
 def _support_lines(model: ExportModel, mesh: QuadMesh) -> list[str]:
-    lines = ["*NSET, NSET=SUPPORTED"]
-    every = np.unique(np.concatenate(mesh.supported)) + 1
+    lines, held = ["*NSET, NSET=SUPPORTED"], held_nodes(model, mesh)
+    every = [node + 1 for node in held]
     lines += [", ".join(map(str, every[k : k + 12])) for k in range(0, len(every), 12)]
     lines.append("*BOUNDARY")
-    for support, nodes in zip(model.supports, mesh.supported, strict=True):
-        axes = [axis for axis, fixed in enumerate(support.fixed, 1) if fixed]
-        lines += [f"{node}, {axis}, {axis}" for node in (nodes + 1).tolist() for axis in axes]
+    for node, fixed in held.items():
+        lines += [f"{node + 1}, {axis}, {axis}" for axis, is_held in enumerate(fixed, 1) if is_held]
     return lines
 
 

@@ -91,6 +91,16 @@ def _nodes_on(keys: np.ndarray, edges: np.ndarray) -> np.ndarray:
     return np.flatnonzero(inside | ((keys[:, 1] < 0) & np.isin(keys[:, 2], edges)))
 
 
+def held_nodes(model: ExportModel, mesh: QuadMesh) -> dict[int, tuple[bool, bool, bool]]:
+    """Return which of x, y, z is fixed at each supported node, by all supports that it lies on."""
+    held: dict[int, tuple[bool, bool, bool]] = {}
+    for support, nodes in zip(model.supports, mesh.supported, strict=True):
+        for node in nodes.tolist():
+            own = held.get(node, (False, False, False))
+            held[node] = tuple(a or b for a, b in zip(own, support.fixed, strict=True))
+    return dict(sorted(held.items()))
+
+
 def mesh_loads(model: ExportModel, mesh: QuadMesh, load: np.ndarray) -> np.ndarray:
     """Return nodal forces (N, 3) kN of loads on facets (F, 3) kN/m2: of bilinear elements, exact
     for their four corners."""

@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from foldshell.exchange.fe_mesh import QuadMesh, divide_facets, mesh_loads
+from foldshell.exchange.fe_mesh import QuadMesh, divide_facets, held_nodes, mesh_loads
 from foldshell.exchange.model import ExportModel, load_on_facets
 from foldshell.exchange.options import ExportOptions
 from foldshell.files.whole import atomic_path
@@ -98,6 +98,7 @@ def script(model: ExportModel, n: int) -> str:
     """Return the script of a mesh of three times n x n elements a facet."""
     mesh = divide_facets(model, n, middles=False)
     weight = model.material.unit_weight * model.volume
+    held = {node + 1: list(map(int, fixed)) for node, fixed in held_nodes(model, mesh).items()}
     lines = [
         f'"""{model.design} for OpenSees, by foldshell: kN, m; 3 x {n} x {n} elements a facet."""',
         "", "import json", "import sys", "", "import openseespy.opensees as ops", "",
@@ -107,21 +108,11 @@ def script(model: ExportModel, n: int) -> str:
         f"THICKNESS = {json.dumps([panel.thickness for panel in model.panels])}  # m, by panel",
         f"COMBINATIONS = {json.dumps({k: dict(v) for k, v in model.combinations.items()})}",
         f"NODES = {json.dumps(mesh.nodes.tolist())}",
-        f"SUPPORTS = {_supports(model, mesh)!r}  # 1 where x, y, z are fixed",
+        f"SUPPORTS = {held!r}  # 1 where x, y, z are fixed",
         f"ELEMENTS = {json.dumps(_elements(model, mesh))}  # panel, four nodes",
         f"LOADS = {_loads(model, mesh)!r}  # kN",
     ]  # fmt: skip
     return "\n".join(lines) + "\n" + RUN
-
-
-def _supports(model: ExportModel, mesh: QuadMesh) -> dict[int, list[int]]:
-    """Return which axes are fixed, by node."""
-    held: dict[int, list[int]] = {}
-    for support, nodes in zip(model.supports, mesh.supported, strict=True):
-        for node in (nodes + 1).tolist():
-            own = held.setdefault(node, [0, 0, 0])
-            held[node] = [int(a or b) for a, b in zip(own, support.fixed, strict=True)]
-    return held
 
 
 def _elements(model: ExportModel, mesh: QuadMesh) -> list[list[int]]:

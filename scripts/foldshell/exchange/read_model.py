@@ -20,6 +20,7 @@ from foldshell.results.governing import choose_combinations
 from foldshell.settings.crosscheck import GOVERNING
 from foldshell.settings.design import Row
 from foldshell.settings.stage import StageSettings
+from foldshell.shell.supports import BORDERS, find_support
 
 GROUPS = ("strength", "deflection")
 _SCALARS = ("volume_m3", "area_m2", "utilization_max", "utilization_panel_mean_max",
@@ -81,6 +82,18 @@ def _choose_compared(settings: StageSettings, report: AnalysisRecord) -> dict[st
         group: names[-1] if named[group] == [GOVERNING] else names[0]
         for group, names in chosen.items()
     }
+
+
+def _make_supports(mesh, name: str) -> tuple[Support, ...]:
+    """Return a support for each border that is held, in the directions that its set fixes."""
+    pairs = mesh["support_pairs"]
+    fix = find_support(name).fix
+    fixed = ("x" in fix, "y" in fix, "z" in fix)
+    border = mesh.get("support_border", np.zeros(len(pairs), dtype=int))
+    return tuple(
+        Support(BORDERS[number], pairs[border == number], fixed)
+        for number in np.unique(border).tolist()
+    )
 
 
 def _flat_note(fold_mode: str) -> str:

@@ -8,7 +8,7 @@ buckling case stands beside. In kN, m, C.
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from foldshell.exchange.fe_mesh import QuadMesh, divide_facets
+from foldshell.exchange.fe_mesh import QuadMesh, divide_facets, held_nodes
 from foldshell.exchange.model import ExportModel
 from foldshell.exchange.options import ExportOptions
 from foldshell.files.errors import InputError
@@ -173,10 +173,8 @@ def _assign(name: str, factors: Mapping[str, float]) -> list[Row]:
 def _supports(model: ExportModel, mesh: QuadMesh) -> Iterator[tuple[str, list[Row]]]:
     words = {True: "Yes", False: "No"}
     yield "JOINT RESTRAINT ASSIGNMENTS", [
-        {"Joint": joint, **{f"U{k}": words[bool(f)] for k, f in enumerate(support.fixed, 1)},
-         "R1": "No", "R2": "No", "R3": "No"}
-        for support, nodes in zip(model.supports, mesh.supported, strict=True)
-        for joint in (nodes + 1).tolist()
+        {"Joint": node + 1, **{f"U{k}": words[bool(f)] for k, f in enumerate(fixed, 1)},
+         "R1": "No", "R2": "No", "R3": "No"} for node, fixed in held_nodes(model, mesh).items()
     ]  # fmt: skip
 
 

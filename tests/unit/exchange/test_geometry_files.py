@@ -9,7 +9,7 @@ import meshio
 import numpy as np
 import pytest
 
-from export_cases import CASES, PANELS, make_export_model, write_export_case
+from export_cases import CASES, PANELS, make_export_model, support_edges, write_export_case
 from foldshell.exchange.formats import FORMATS
 from foldshell.exchange.ifc import write_ifc
 from foldshell.exchange.mesh_files import write_glb, write_obj, write_ply, write_stl
@@ -59,7 +59,7 @@ def test_3dm_reads_back(tmp_path, case):
         assert len(ends) == len(ring) and gap.min(axis=0).max() < 1e-9
     for kind, name in (("M", "MOUNTAIN"), ("V", "VALLEY"), ("B", "BORDER")):
         assert len(layers[name]) == sum(crease.assignment == kind for crease in model.creases)
-    assert len(layers["SUPPORTS"]) == len(model.supports[0].edges)
+    assert len(layers["SUPPORTS"]) == len(support_edges(model))
     assert sum(len(own) for name, own in layers.items() if name.startswith("FLAT PATTERN"))
 
 
@@ -97,7 +97,7 @@ def test_ifc_is_valid_and_reads_back(tmp_path, case):
     assert len(members) == len(file.by_type("IfcPlate"))
     assert {member.Thickness for member in members} == {p.thickness for p in model.panels}
     held = [c for c in file.by_type("IfcStructuralCurveConnection") if c.AppliedCondition]
-    assert len(held) == len(model.supports[0].edges)
+    assert len(held) == len(support_edges(model))
     joined = {r.RelatedStructuralConnection for r in
               file.by_type("IfcRelConnectsStructuralMember")}  # fmt: skip
     assert set(held) <= joined
