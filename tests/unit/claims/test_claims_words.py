@@ -116,6 +116,20 @@ def test_a_section_says_what_cannot_be_told():
     assert section.startswith("## C6: cannot be told") and "Sensitivity: Nothing." in section
 
 
+def test_the_largest_uncertainty_of_a_claim_is_per_cent():
+    """A quantity whose two values are 5 % uncertain, the errors of either code as one."""
+    designs = [make_design_result({"volume_per_area": value}, support=support)
+               for support, value in (("strip", 0.08), ("zigzag", 0.05))]  # fmt: skip
+    claim = describe_claim(judge_supports(designs, COMPARER))
+    largest = claim.uncertainty.largest_relative
+    shown = "; ".join(
+        f"{quantity.replace('_', ' ')} {float(f'{value * 100:.3g}'):g} %"
+        for quantity, value in largest.items()
+    )
+    assert all(0.01 < value < 0.2 for value in largest.values()) and largest
+    assert f"Largest: {shown}." in write_section(claim)
+
+
 def test_flat_sheets_have_a_row_each():
     design = make_design_result()
     measures = replace(design.values, displacement=None, utilization_panel_mean_max=None)
