@@ -7,6 +7,7 @@ from pathlib import Path
 import numpy as np
 
 from foldshell.files.errors import InputError
+from foldshell.files.meshes.library import SAMPLED
 from foldshell.files.meshes.model import count
 from foldshell.files.meshes.read import FORMATS, read_mesh
 from foldshell.pattern.line_graph import build_pattern
@@ -56,6 +57,8 @@ def _read_folded(path: str | Path, file_unit: str | None) -> PanelMesh:
     """A folded sheet from a mesh file: its polygons are the panels."""
     factor = agree_on_unit(path, None, file_unit)
     given = read_mesh(path, WORDS[file_unit or "m"])
+    if SAMPLED in given.notes:
+        raise InputError(f"{path}: {SAMPLED}: a folded sheet has planar faces or a mesh")
     try:
         mended = repair_panels(given, Path(path).suffix.lower() == ".stl")
     except InputError as error:

@@ -1,6 +1,6 @@
-"""Read .vtk, .vtu, .vtp and .msh by libraries, in a process of its own that may crash.
+"""Read .vtk, .vtu, .vtp, .msh and .3dm by libraries, in a process of its own that may crash.
 
-`python child.py FILE OUT`: writes the mesh to OUT (npz) and ends with 0, or prints a sentence
+`python child.py FILE OUT UNIT`: writes the mesh to OUT (npz) and ends with 0, or prints a sentence
 and ends with REFUSED. Imports nothing of this project, so that it starts alone.
 """
 
@@ -208,12 +208,27 @@ def _limit() -> None:
         resource.setrlimit(resource.RLIMIT_AS, (MEMORY, MEMORY))
 
 
-def main(path: str, out: str) -> int:
-    """Read `path`; write `out` or print why not. Return the exit code."""
+def read_3dm(path: str, unit: str) -> dict:
+    """Read a .3dm file of Rhino whose model is in `unit`."""
+    try:
+        from rhino_child import read_rhino  # beside this file, where it runs as a script
+    except ImportError:
+        from foldshell.files.meshes.rhino_child import read_rhino
+    return read_rhino(path, unit, Refused)
+
+
+def main(path: str, out: str, unit: str = "metres") -> int:
+    """Read `path`, whose unit must be `unit` where it has one; write `out` or print why not.
+
+    Return the exit code.
+    """
     _limit()
     try:
-        read = read_gmsh if Path(path).suffix.lower() == ".msh" else read_vtk
-        arrays = read(path)
+        suffix = Path(path).suffix.lower()
+        if suffix == ".3dm":
+            arrays = read_3dm(path, unit)
+        else:
+            arrays = read_gmsh(path) if suffix == ".msh" else read_vtk(path)
         np.savez(out, **arrays)
     except Refused as error:
         print(error)

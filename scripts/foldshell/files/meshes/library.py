@@ -9,18 +9,34 @@ from pathlib import Path
 
 import numpy as np
 
-from foldshell.files.meshes import child
+from foldshell.files.errors import InputError
+from foldshell.files.libraries import need_library
+from foldshell.files.meshes import child, rhino_child
 from foldshell.files.meshes.model import Mesh, MeshError, make_mesh
 
+BESIDE = rhino_child.__name__
+"""Read by the child too: named here, so that rules know that reading depends on it."""
+SAMPLED = "a curved surface, sampled"
+"""Note on a mesh that was no mesh in its file."""
 SECONDS = 120
 """Time that reading may take."""
 
 
-def read_by_library(path: str | Path) -> Mesh:
-    """Read a .vtk, .vtu, .vtp or .msh file. Raises `MeshError`, also where the reader crashes."""
+def read_by_library(path: str | Path, unit: str = "metres") -> Mesh:
+    """Read a .vtk, .vtu, .vtp, .msh or .3dm file; a model of Rhino must be in `unit`.
+
+    Raises `MeshError`, also where the reader crashes; where the library for Rhino's files is missing
+    it says what to type.
+    """
+    if Path(path).suffix.lower() == ".3dm":
+        try:
+            need_library("rhino3dm", "exports")
+        except InputError as error:
+            raise MeshError(f"cannot be read: {error}") from None
     with tempfile.TemporaryDirectory(prefix="foldshell-") as folder:
         out = Path(folder) / "mesh.npz"
-        code, said = _run([sys.executable, child.__file__, str(Path(path).resolve()), str(out)])
+        places = [str(Path(path).resolve()), str(out)]
+        code, said = _run([sys.executable, child.__file__, *places, unit])
         if code == child.REFUSED:
             raise MeshError(said)
         if code < 0:
@@ -30,7 +46,8 @@ def read_by_library(path: str | Path) -> Mesh:
             raise MeshError("the library that reads it failed: damaged, or another format")
         with np.load(out, allow_pickle=False) as arrays:
             vertices, sizes, corners = (arrays[k] for k in ("vertices", "sizes", "corners"))
-    return make_mesh(vertices, sizes, corners, vertices.dtype == np.float32)
+            notes = (SAMPLED,) if "sampled" in arrays else ()
+    return make_mesh(vertices, sizes, corners, vertices.dtype == np.float32, "", notes)
 
 
 def _run(command: list[str]) -> tuple[int, str]:

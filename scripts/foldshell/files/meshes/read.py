@@ -20,7 +20,7 @@ _PARSERS: dict[str, Callable[[bytes], Mesh]] = {
     ".ply": parse_ply,
     ".off": parse_off,
 }
-_BY_LIBRARY = (".vtk", ".vtu", ".vtp", ".msh")
+_BY_LIBRARY = (".vtk", ".vtu", ".vtp", ".msh", ".3dm")
 FORMATS = (*_PARSERS, *_BY_LIBRARY)
 """Suffixes of all mesh files that can be read, in small letters."""
 _MAGIC = (
@@ -38,7 +38,7 @@ _MAGIC = (
     (re.compile(rb"\xff\xfe|\xfe\xff"), "UTF-16 text: save it as UTF-8"),
     (re.compile(rb"%PDF"), "a PDF document"),
     (re.compile(rb"ISO-10303-21"), "a STEP file: export a mesh"),
-    (re.compile(rb"3D Geometry File Format"), "a Rhino file: name it .3dm"),
+    (re.compile(rb"3D Geometry File Format"), ".3dm"),
 )
 
 
@@ -61,7 +61,7 @@ def read_mesh(path: str | Path, unit: str = "metres") -> Mesh:
     try:
         _check_magic(data, path.suffix.lower())
         parse = _PARSERS.get(path.suffix.lower())
-        mesh = parse(data) if parse else read_by_library(path)
+        mesh = parse(data) if parse else read_by_library(path, unit)
         if not mesh.polygons:
             raise MeshError("holds no faces: 0 triangles, a mesh of faces is needed")
         check_mesh(mesh)
