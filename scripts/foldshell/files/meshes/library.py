@@ -25,8 +25,8 @@ SECONDS = 120
 def read_by_library(path: str | Path, unit: str = "metres") -> Mesh:
     """Read a .vtk, .vtu, .vtp, .msh or .3dm file; a model of Rhino must be in `unit`.
 
-    Raises `MeshError`, also where the reader crashes; where the library for Rhino's files is missing
-    it says what to type.
+    Raises `MeshError`, also where the reader crashes, and what to type where the library for
+    Rhino's files is missing.
     """
     if Path(path).suffix.lower() == ".3dm":
         try:
