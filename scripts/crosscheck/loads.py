@@ -17,7 +17,7 @@ def compute_surface_loads(model: Model, normal: np.ndarray) -> np.ndarray:
 
     `normal` (F, 3) are the facets' unit normals. The dead load presses at right angles to the
     facet: on the side that faces up (`downward`), or on the sheet's upper side (`sheet`), which
-    differs where a facet overhangs. Facets of `bare` panels carry their own weight only.
+    differs where a facet overhangs. Facets of `self_weight_only` carry no more.
     """
     loads = model.loads
     share = np.abs(normal[:, 2]) if loads.area_basis == "plan_abs" else np.ones(len(normal))
@@ -29,7 +29,7 @@ def compute_surface_loads(model: Model, normal: np.ndarray) -> np.ndarray:
     surface[:, 2, 2] = -loads.live * share
     surface[:, 0, 3] = wind
     surface[:, 1, 4] = wind
-    surface[model.bare, :, 1:] = 0
+    surface[model.self_weight_only, :, 1:] = 0
     return surface
 
 

@@ -60,7 +60,9 @@ class Model:
     loads: Loads
     combinations: dict[str, dict[str, float]]
     compared: dict[str, list[str]]  # strength and deflection: combinations of each
-    bare_panels: np.ndarray = field(default_factory=lambda: np.empty(0, int))  # own weight only
+    self_weight_only_panels: np.ndarray = field(
+        default_factory=lambda: np.empty(0, int)
+    )  # own weight only
     limits: dict[str, float] = field(default_factory=dict)  # LIMITS, those that are known
 
     @property
@@ -69,9 +71,9 @@ class Model:
         return self.panel_thickness[self.facet_panel]
 
     @property
-    def bare(self) -> np.ndarray:
+    def self_weight_only(self) -> np.ndarray:
         """True for facets that carry their own weight only, (F,) bool."""
-        return np.isin(self.facet_panel, self.bare_panels)
+        return np.isin(self.facet_panel, self.self_weight_only_panels)
 
     @property
     def compared_combinations(self) -> dict[str, dict[str, float]]:
@@ -114,12 +116,12 @@ def read_model(path: str | Path) -> Model:
         loads=_read_loads(root),
         combinations=combinations,
         compared=compared,
-        bare_panels=_read_bare_panels(root, format_name, len(thickness)),
+        self_weight_only_panels=_read_self_weight_only_panels(root, format_name, len(thickness)),
         limits=_read_limits(root.key("limits", {})),
     )
 
 
-def _read_bare_panels(root: Place, format_name: str, panels: int) -> np.ndarray:
+def _read_self_weight_only_panels(root: Place, format_name: str, panels: int) -> np.ndarray:
     unsaid = format_name == FORMATS[2] and "self_weight_only_panels" not in root.names()
     if format_name == FORMATS[0] or unsaid:
         return np.empty(0, dtype=int)

@@ -1,4 +1,4 @@
-"""How far a study is: a line an iteration, a table of its designs, an estimate of what is left."""
+"""How far a study is: one line per iteration, a table of its designs, what is left."""
 
 import statistics
 from collections.abc import Iterable
@@ -104,7 +104,7 @@ def estimate_left(progress: Iterable[DesignProgress], cores: int) -> float | Non
 
 
 def show_progress(progress: Iterable[DesignProgress], cores: int) -> str:
-    """Return the text that a person looks at: a line a design, then totals."""
+    """Return the text that a person looks at: one line per design, then totals."""
     progress = list(progress)
     lines = [
         describe_iteration(item.design, item.last) if item.last else f"{item.design}: not begun"

@@ -146,8 +146,8 @@ class ExportModel:
 
 def load_on_facets(model: ExportModel, case: SurfaceLoad) -> np.ndarray:
     """Return a case's load on each facet, (F, 3) kN per m2 of sheet."""
-    bare = model.self_weight_only
-    return surface_loads(model.normals, model.thickness, [case], bare)[:, :, 0]
+    self_weight_only = model.self_weight_only
+    return surface_loads(model.normals, model.thickness, [case], self_weight_only)[:, :, 0]
 
 
 def combined_loads(model: ExportModel, combination: str) -> np.ndarray:

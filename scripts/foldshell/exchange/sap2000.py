@@ -180,12 +180,12 @@ def _supports(model: ExportModel, mesh: QuadMesh) -> Iterator[tuple[str, list[Ro
 
 def _area_loads(model: ExportModel, mesh: QuadMesh) -> Iterator[Row]:
     """Yield uniform loads: local 3 against the normal, else global; plan shares in the value."""
-    normal, bare = model.normals[:, 2], model.self_weight_only
+    normal, self_weight_only = model.normals[:, 2], model.self_weight_only
     for case in model.load_cases:
         if case.kind == WEIGHT or not case.value:
             continue
         for area, facet in enumerate(mesh.facet.tolist(), 1):
-            if bare[facet]:
+            if self_weight_only[facet]:
                 continue
             share = abs(float(normal[facet])) if case.area == "plan_abs" else 1.0
             for system, direction, value in _directions(case):

@@ -61,7 +61,7 @@ def _read_rows(path: Path) -> list[tuple[int, dict[str, str]]]:
         if line.strip() and not line.startswith("#")
     ]
     if not lines:
-        raise InputError(f"{path}: the table is empty: a header line and a line a design are due")
+        raise InputError(f"{path}: the table is empty: a header and one line per design are due")
     header_line, header_text = lines[0]
     header = _split(header_text)
     _check_header(header, f"{path}: line {header_line}")
