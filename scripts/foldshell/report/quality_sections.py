@@ -47,12 +47,45 @@ def make_crosscheck(comparison: ComparisonRecord) -> Section:
         )
         for name, item in comparison.quantities.items()
     ]
+    rows += [
+        (
+            f"{name}, thrust [kN]",
+            item.primary_thrust_kn,
+            item.independent_thrust_kn,
+            _percent(item.relative_difference),
+            _percent(item.tolerance),
+            judge_met(item.passed),
+        )
+        for name, item in (comparison.reactions or {}).items()
+    ]
     header = ("quantity", "primary", "independent", "difference [%]", "tolerance [%]", "within")
     return Section(
         "Cross-check by the independent code",
         Box("good" if passed else "bad", f"{words}: {note}" if note else words),
+        words=say_shear(comparison),
         table=make_table(header, rows) if rows else None,
     )
+
+
+def say_shear(comparison: ComparisonRecord) -> str:
+    """Return what shear deformation, which both codes leave out, adds to each limited value."""
+    sentences = []
+    for name, item in (comparison.shear or {}).items():
+        unit = "mm" if name.endswith("_m") else "-"
+        value, limit, sheared = (
+            f"{_show(number, 'm' if unit == 'mm' else unit):.4g}"
+            for number in (item.value, item.limit, item.with_shear)
+        )
+        end = "within" if item.with_shear <= item.limit else "not within"
+        turns = " (the verdict turns)" if item.turns else ""
+        if item.turns_refined and not item.turns:
+            turns = " (the verdict turns with mesh error added)"
+        sentences.append(
+            f"Shear deformation adds {100 * item.share:.2g} % to "
+            f"{name_quantity(f'{item.combination} {name}', unit)}: {value} becomes {sheared}, "
+            f"{end} {limit}{turns}."
+        )
+    return " ".join(sentences)
 
 
 def _show(value: float, unit: str) -> float:

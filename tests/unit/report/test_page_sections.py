@@ -1,7 +1,10 @@
 """Tables of the page of a design: shares of a file become per cent, once."""
 
+from dataclasses import replace
+
 import pytest
 
+from foldshell.records.comparison import ShearShare, SupportReaction
 from foldshell.records.entry import FACTORS, entries
 from foldshell.records.summary import SummaryRow
 from foldshell.report.sections import make_crosscheck, make_mesh_error
@@ -29,6 +32,31 @@ def test_difference_and_tolerance_of_both_codes_are_per_cent():
     assert row["difference [%]"] == pytest.approx(7.2)
     assert row["tolerance [%]"] == pytest.approx(5.0)
     assert (row["primary"], row["independent"], row["within"]) == (0.1, 0.11, "no")
+
+
+def test_thrusts_and_shear_stand_with_the_cross_check():
+    reaction = SupportReaction(
+        primary_kn=(3.0, 0.0, 4.0), independent_kn=(3.1, 0.0, 4.0), primary_thrust_kn=3.0,
+        independent_thrust_kn=3.1, relative_difference=0.02, tolerance=0.04, passed=True,
+    )  # fmt: skip
+    share = ShearShare(
+        combination="D2", share=0.043, share_meshes=(0.015, 0.033), value=0.1129, limit=0.1167,
+        with_shear=0.1178, refined_with_shear=0.1193, turns=True, turns_refined=True,
+    )  # fmt: skip
+    comparison = make_comparison(
+        True, {"D2 work_knm": make_quantity(True)}, reactions={"D2 first strip edge": reaction},
+        shear={"displacement_down_max_m": share},
+    )  # fmt: skip
+    section = make_crosscheck(comparison)
+    row = read(section.table)[-1]
+    assert row["quantity"] == "D2 first strip edge, thrust [kN]"
+    assert (row["primary"], row["independent"]) == (3.0, 3.1)
+    assert "adds 4.3 % to D2" in section.words
+    assert "112.9 becomes 117.8, not within 116.7 (the verdict turns)." in section.words
+    together = replace(share, with_shear=0.116, turns=False)
+    section = make_crosscheck(replace(comparison, shear={"displacement_down_max_m": together}))
+    assert "116, within 116.7 (the verdict turns with mesh error added)." in section.words
+    assert make_crosscheck(make_comparison(True)).words == ""
 
 
 def test_columns_of_the_study_are_in_the_unit_of_their_header():
