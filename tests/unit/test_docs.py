@@ -6,10 +6,17 @@ from pathlib import Path
 
 import pytest
 
+from foldshell.settings.check import iterate_settings
+from foldshell.settings.study import Settings
+
 ROOT = Path(__file__).parents[2]
 PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 PATH = re.compile(r"`((?:scripts|rules|tests|config|docs|envs)/[\w./*-]*\w/?)[^`]*`")
+SETTING = re.compile(r"`([a-z_]+(?:\.[a-z_0-9]+)+)(?::[^`]*)?`")
+FILES = tuple(
+    f".{kind}" for kind in ("py", "json", "xlsx", "csv", "npz", "md", "fold", "vtu", "svg")
+)
 ROOMS = {path.parent.name for path in (ROOT / "scripts/foldshell").glob("*/__init__.py")}
 MODULE = re.compile(rf"`((?:{'|'.join(sorted(ROOMS))})/\w+\.(?:py|js|css))`")
 
@@ -39,6 +46,18 @@ def test_paths_in_the_text_are_there(page):
     for folder, path in named:
         if "results/" not in path:
             assert list(folder.glob(path.rstrip("/"))), f"{page.name}: {path}: no such file"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_settings_named_in_the_text_are_there(page):
+    """`group.key`, also with a value behind it, is a key of config.yaml; file names are none."""
+    known = {place for place, _ in iterate_settings(Settings)}
+    for place in set(known):
+        parts = place.split(".")
+        known |= {".".join(parts[:count]) for count in range(1, len(parts))}
+    for name in SETTING.findall(page.read_text(encoding="utf-8")):
+        if name.split(".")[0] in {place.split(".")[0] for place in known}:
+            assert name in known or name.endswith(FILES), f"{page.name}: {name}: no such setting"
 
 
 def test_the_map_is_that_of_the_tree(monkeypatch):
