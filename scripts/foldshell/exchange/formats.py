@@ -64,12 +64,12 @@ FORMATS = {
     "inp": Format(
         ("{design}_1.inp", "{design}_2.inp"), write_inp,
         "CalculiX and Abaqus: S8R shells on two meshes, a step a combination, buckling",
-        "`ccx -i NAME` without .inp; Abaqus/CAE: File > Import > Model",
+        "ccx -i NAME, without .inp; Abaqus/CAE: File > Import > Model",
     ),
     "opensees": Format(
         ("{design}_opensees_1.py", "{design}_opensees_2.py"), write_opensees,
         "OpenSees: ASDShellQ4 on two meshes, load cases, combinations, sums of reactions",
-        "`pip install openseespy`, then `python FILE.py OUT.json D2`",
+        "pip install openseespy; python FILE.py OUT.json D2",
     ),
     "obj": Format(
         (*_both("obj"), "{design}_sheet.mtl"), write_obj, "folded sheet and thickened solid",

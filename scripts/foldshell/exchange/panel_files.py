@@ -88,7 +88,7 @@ def _draw_panel(space, flat: FlatPanel, outline: np.ndarray, inner: np.ndarray, 
     space.add_lwpolyline(outline.tolist(), close=True, dxfattribs={"layer": layers["outline"][0]})
     for line in inner.tolist():
         space.add_line(*line, dxfattribs={"layer": layers["bend"][0]})
-    middle, size = outline.mean(axis=0), math.sqrt(_size(outline)) / 18
+    middle, size = outline.mean(axis=0), math.sqrt(_size(outline)) / 24
     thick = f"{1000 * flat.panel.thickness:.4g} mm"
     label = f"{flat.panel.name}  {thick}"
     if flat.bends.size:
