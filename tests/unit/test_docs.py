@@ -57,7 +57,9 @@ def test_settings_named_in_the_text_are_there(page):
         known |= {".".join(parts[:count]) for count in range(1, len(parts))}
     for name in SETTING.findall(page.read_text(encoding="utf-8")):
         if name.split(".")[0] in {place.split(".")[0] for place in known}:
-            assert name in known or name.endswith(FILES), f"{page.name}: {name}: no such setting"
+            typed = any(place.startswith(f"{name}_") for place in known)  # without its unit
+            found = name in known or typed or name.endswith(FILES)
+            assert found, f"{page.name}: {name}: no such setting"
 
 
 def test_the_map_is_that_of_the_tree(monkeypatch):
