@@ -35,7 +35,7 @@ def final_states(_wildcards):
 
 def has_claims():
     """Tell whether the claims are judged or asked for: they need many more runs than the study."""
-    asked = is_target("report", "snakemake_report", "claims")
+    asked = is_target("report", "claims")
     return asked or Path(f"{STUDY}/claims.json").exists()
 
 
