@@ -49,6 +49,7 @@ REACTION_COLUMNS = {
 SHEAR_COLUMNS = {
     "criterion": "",
     "combination": "",
+    "verdict": "",
     "shear adds": "%",
     "on the coarse mesh": "%",
     "on the fine mesh": "%",
@@ -56,7 +57,6 @@ SHEAR_COLUMNS = {
     "limit": "m or -",
     "with shear": "m or -",
     "and mesh error": "m or -",
-    "verdict": "",
 }
 LABELS = {
     "displacement_down_max_m": "largest downward displacement",
@@ -75,6 +75,7 @@ NUMERIC = {
     "percent": "0.00",
     "small": "0.0E+00",
     "count": "0",
+    "force": "0.0",
 }
 
 
@@ -226,7 +227,7 @@ def _write_reactions(sheet: Worksheet, design: str, comparison: Comparison, styl
         rows = zip(("x", "y", "z", "thrust"), first, second, strict=True)
         for number, (component, one, other) in enumerate(rows):
             sheet.write_row(row, 0, [combination, support, component], style["text" + end])
-            sheet.write_row(row, 3, [one, other], style["number" + end])
+            sheet.write_row(row, 3, [one, other], style["force" + end])
             if number == 0:
                 percent = [100 * entry.relative_difference, 100 * entry.tolerance]
                 sheet.write_row(row, 5, percent, style["percent" + end])
@@ -246,15 +247,15 @@ def _split_support(key: str) -> tuple[str, str]:
 def _write_shear(sheet: Worksheet, design: str, comparison: Comparison, style: dict) -> None:
     """What shear deformation adds to each limited value, and whether the verdict turns."""
     title = f"{design}: what shear deformation adds, by the independent code"
-    _start_sheet(sheet, title, SHEAR_COLUMNS, (34, 12, 10, 11, 11, 11, 11, 11, 11, 40), style)
+    _start_sheet(sheet, title, SHEAR_COLUMNS, (34, 12, 40, 10, 11, 11, 11, 11, 11, 11), style)
     for row, (name, entry) in enumerate(comparison.shear.items(), 3):
         end = "_failed" if entry.turns or entry.turns_refined else ""
-        sheet.write_row(row, 0, [LABELS[name], entry.combination], style["text" + end])
+        words = [LABELS[name], entry.combination, _say_shear(entry)]
+        sheet.write_row(row, 0, words, style["text" + end])
         shares = [entry.share, entry.share_meshes[0], entry.share_meshes[-1]]
-        sheet.write_row(row, 2, [100 * share for share in shares], style["percent" + end])
+        sheet.write_row(row, 3, [100 * share for share in shares], style["percent" + end])
         values = [entry.value, entry.limit, entry.with_shear, entry.refined_with_shear]
-        sheet.write_row(row, 5, values, style["number" + end])
-        sheet.write(row, 9, _say_shear(entry), style["text" + end])
+        sheet.write_row(row, 6, values, style["number" + end])
 
 
 def _say_shear(entry: ShearShare) -> str:

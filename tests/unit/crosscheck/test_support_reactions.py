@@ -1,17 +1,21 @@
 """Reactions of each support: statics, the thrust of a two-hinged frame, and their comparison."""
 
 import copy
+from dataclasses import replace
 
 import numpy as np
+import openpyxl
 import pytest
 
 from crosscheck.analysis import analyse_model, list_values
 from crosscheck.comparison import compare
 from crosscheck.model import read_model
 from crosscheck.reactions import find_thrusts
+from crosscheck.records import ShearShare
 from crosscheck.stability import Method, analyse_mesh
 from crosscheck.supports import share_nodes
 from crosscheck.values import build_independent
+from crosscheck.workbook import write_comparison
 from crosscheck_models import describe_model, describe_small_fold, describe_strip, write_model
 
 SPAN, RISE, WIDTH = 8.0, 2.0, 1.5
@@ -126,3 +130,33 @@ def test_a_force_that_moves_from_one_edge_to_another_is_seen(both_codes, part, p
     assert all(entry.passed for entry in result.quantities.values())
     assert result.reactions["S2 left"].passed == passed
     assert compare(moved, independent, {"support_reaction": 0.1}, thrusts=thrusts).passed
+
+
+def test_the_workbook_shows_reactions_and_shear(both_codes, tmp_path):
+    """Four rows a support, the failed one red; the verdict on shear in words."""
+    primary, independent, thrusts = both_codes
+    moved = copy.deepcopy(primary)
+    for mesh in moved.values["D2"]["support_reactions_kn"]:
+        mesh["left"] = np.multiply(mesh["left"], 1.2).tolist()
+    share = ShearShare(
+        combination="D2", share=0.043, share_meshes=[0.015, 0.033], value=0.1129, limit=0.1167,
+        with_shear=0.1178, refined_with_shear=0.1193, turns=True, turns_refined=True,
+    )  # fmt: skip
+    result = compare(moved, independent, {}, thrusts=thrusts)
+    result = replace(result, shear={"displacement_down_max_m": share})
+    write_comparison(tmp_path / "c.xlsx", "gable", result)
+    book = openpyxl.load_workbook(tmp_path / "c.xlsx")
+    assert book.sheetnames == ["comparison", "meshes", "reactions", "shear"]
+    rows = list(book["reactions"].iter_rows(min_row=4))
+    assert len(rows) == 4 * len(result.reactions)
+    at = {tuple(cell.value for cell in row[:3]): row for row in rows}
+    thrust = at["S2", "left", "thrust"]
+    exact = result.reactions["S2 left"].primary_thrust_kn
+    assert thrust[3].value == pytest.approx(exact, rel=1e-12)
+    assert at["D2", "left", "x"][7].value == "failed"
+    assert at["D2", "left", "x"][0].fill.fgColor.rgb == "FFFFC7CE"
+    assert at["D2 Th.II", "right", "x"][7].value == "passed"
+    (row,) = book["shear"].iter_rows(min_row=4, values_only=True)
+    assert row[:4] == (
+        "largest downward displacement", "D2", "turns with shear deformation", pytest.approx(4.3),
+    )  # fmt: skip
