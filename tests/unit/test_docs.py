@@ -14,9 +14,7 @@ PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").g
 LINK = re.compile(r"\]\(([^)\s]+)\)")
 PATH = re.compile(r"`((?:scripts|rules|tests|config|docs|envs)/[\w./*-]*\w/?)[^`]*`")
 SETTING = re.compile(r"`([a-z_]+(?:\.[a-z_0-9]+)+)(?::[^`]*)?`")
-FILES = tuple(
-    f".{kind}" for kind in ("py", "json", "xlsx", "csv", "npz", "md", "fold", "vtu", "svg")
-)
+FILES = (".py", ".json", ".xlsx", ".csv", ".tsv", ".npz", ".md", ".fold", ".vtu", ".svg")
 ROOMS = {path.parent.name for path in (ROOT / "scripts/foldshell").glob("*/__init__.py")}
 MODULE = re.compile(rf"`((?:{'|'.join(sorted(ROOMS))})/\w+\.(?:py|js|css))`")
 
