@@ -59,7 +59,8 @@ def _flatten(model: ExportModel, panel: Panel, known: dict[tuple[int, int], Crea
     turn = np.conj((corners[1] - corners[0]) / abs(corners[1] - corners[0]))
     origin = corners[0]
 
-    def turned(points):
+    def turned(points) -> np.ndarray:
+        """Return places (..., 2) m with the first edge along x."""
         moved = (np.asarray(points) - origin) * turn
         return np.stack([moved.real, moved.imag], axis=-1)
 

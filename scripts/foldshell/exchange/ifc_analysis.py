@@ -44,12 +44,14 @@ class _Topology:
         self.edges: dict[tuple[int, int], Any] = {}
 
     def vertex(self, number: int) -> Any:
+        """Return the vertex of a number."""
         if number not in self.vertices:
             point = self.file.point(self.model.vertices[number])
             self.vertices[number] = self.file.make("IfcVertexPoint", point)
         return self.vertices[number]
 
     def edge(self, first: int, second: int) -> Any:
+        """Return the edge between two vertices, from the lower to the higher number."""
         key = (min(first, second), max(first, second))
         if key not in self.edges:
             self.edges[key] = self.file.make("IfcEdge", *map(self.vertex, key))

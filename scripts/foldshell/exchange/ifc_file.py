@@ -117,6 +117,7 @@ def _units(file: IfcFile) -> Any:
     }
 
     def derived(kind: str, **powers: int) -> Any:
+        """Return a unit that is a product of powers of others."""
         parts = [
             file.make("IfcDerivedUnitElement", single[name], power)
             for name, power in powers.items()

@@ -39,15 +39,7 @@ def read_export_model(
     """
     mesh = read_typed_arrays(paths["mesh"], MeshArrays)
     folded = read_typed_arrays(paths["folded"], FoldedArrays)
-    report, final = read_iteration(paths["report"], paths["final"])
-    if final.utilization_panel_mean is None:
-        raise InputError(
-            f"{design['design']}: exports: {report.verdict} ({report.reason}): only a design with "
-            "results can be exported"
-        )
-    given = paths.get("classes")
-    classes = read_typed_arrays(given, ClassesArrays) if given else ClassesArrays()
-    checks = read_json(paths["checks"]) if paths.get("checks") else {}
+    report, final, classes, checks = _read_results(paths, design["design"])
     vertices, facets, facet_panel = mesh.vertices, mesh.facets, mesh.facet_panel
     edges, plain = find_edges(vertices, facets), to_plain(report)
     panels = _make_panels(mesh, final, classes, checks, edges)
@@ -58,7 +50,7 @@ def read_export_model(
         facet_panel=facet_panel,
         panels=panels,
         creases=_make_creases(edges, facet_panel),
-        supports=(Support(f"support {design['support']}", mesh.support_pairs),),
+        supports=_make_supports(mesh, design["support"]),
         material=settings.material,
         load_cases=make_load_cases(settings.loads, settings.material.unit_weight),
         combinations=settings.combinations.all,
@@ -73,6 +65,21 @@ def read_export_model(
     )
 
 
+def _read_results(
+    paths: Mapping[str, str | Path], name: str
+) -> tuple[AnalysisRecord, AnalysisArrays, ClassesArrays, Json]:
+    """Return the final state, its classes and the checks; the last two may not be given."""
+    report, final = read_iteration(paths["report"], paths["final"])
+    if final.utilization_panel_mean is None:
+        raise InputError(
+            f"{name}: exports: {report.verdict} ({report.reason}): only a design with results can "
+            "be exported"
+        )
+    given = paths.get("classes")
+    classes = read_typed_arrays(given, ClassesArrays) if given else ClassesArrays()
+    return report, final, classes, read_json(paths["checks"]) if paths.get("checks") else {}
+
+
 def _choose_compared(settings: StageSettings, report: AnalysisRecord) -> dict[str, str]:
     """Return one combination of each group: of those that are named the first, else those of the
     least buckling factor and of the largest displacement."""
@@ -84,12 +91,13 @@ def _choose_compared(settings: StageSettings, report: AnalysisRecord) -> dict[st
     }
 
 
-def _make_supports(mesh, name: str) -> tuple[Support, ...]:
+def _make_supports(mesh: MeshArrays, name: str) -> tuple[Support, ...]:
     """Return a support for each border that is held, in the directions that its set fixes."""
-    pairs = mesh["support_pairs"]
     fix = find_support(name).fix
     fixed = ("x" in fix, "y" in fix, "z" in fix)
-    border = mesh.get("support_border", np.zeros(len(pairs), dtype=int))
+    pairs, border = mesh.support_pairs, mesh.support_border
+    if border is None:
+        return (Support(f"support {name}", pairs, fixed),)
     return tuple(
         Support(BORDERS[number], pairs[border == number], fixed)
         for number in np.unique(border).tolist()

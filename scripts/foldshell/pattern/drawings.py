@@ -1,8 +1,10 @@
 """Crease patterns as drawings: DXF (R2010) and SVG, in millimetres, one layer a kind of line."""
 
 import math
+from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Any
 from xml.sax.saxutils import escape
 
 import numpy as np
@@ -119,7 +121,7 @@ def write_dxf(path: str | Path, drawing: Drawing, preset: str = "fold") -> None:
     save_dxf(path, document, drawing.low, drawing.high, drawing.legend)
 
 
-def new_dxf(layers):
+def new_dxf(layers: Iterable[tuple]) -> Any:
     """Return an empty R2010 document in mm with layers, rows of (name, colour index, ...)."""
     import ezdxf
 
@@ -131,7 +133,9 @@ def new_dxf(layers):
     return document
 
 
-def save_dxf(path: str | Path, document, low: np.ndarray, high: np.ndarray, legend) -> None:
+def save_dxf(
+    path: str | Path, document: Any, low: np.ndarray, high: np.ndarray, legend: Iterable[str]
+) -> None:
     """Set extents low, high (2,) mm, fill the layout, and write the file."""
     space = document.modelspace()
     ends = {"$EXTMIN": (*low.tolist(), 0.0), "$EXTMAX": (*high.tolist(), 0.0)}
@@ -146,7 +150,7 @@ def save_dxf(path: str | Path, document, low: np.ndarray, high: np.ndarray, lege
         document.saveas(temporary)
 
 
-def _fill_layout(document, low: np.ndarray, high: np.ndarray, legend) -> None:
+def _fill_layout(document: Any, low: np.ndarray, high: np.ndarray, legend: Iterable[str]) -> None:
     """Put the drawing on the layout's sheet at a standard scale, with its title block below."""
     layout, (width, height) = document.layout("Layout1"), PAPER_MM
     layout.page_setup(size=PAPER_MM, margins=(0, 0, 0, 0), units="mm")
