@@ -31,7 +31,8 @@ def load_study(
     `files` are read strictly for what Snakemake's own YAML reading lets through (duplicate keys,
     octal numbers, `no` for False) and checked alone, so that the message names the file; `config`
     is what Snakemake merged from them and `--config`, where all is text at first. `say` is told
-    each old word in a file once, with the new one. Raises `InputError`.
+    each old word in a file once, with the new one, and what of a surface file was left out. Raises
+    `InputError`.
     """
     source, notes = "configuration", []
     for file in files:
@@ -44,16 +45,16 @@ def load_study(
     notes += [f"{source}: {note}" for note in found] if not notes else []
     check_defaults(settings, source)
     designs = read_designs(settings.designs, settings, notes)
-    designs = measure_surface_files(designs, str(settings.designs))
+    designs = measure_surface_files(designs, str(settings.designs), notes)
     for note in dict.fromkeys(notes):
         say(note)
     return settings, designs
 
 
-def measure_surface_files(designs: Iterable[Design], source: str) -> list[Design]:
+def measure_surface_files(designs: Iterable[Design], source: str, notes: list[str]) -> list[Design]:
     """Return the designs, those on a mesh file with the height that the file has, m.
 
-    Raises `InputError` for a mesh file that cannot be the target of its design. Each file is read
+    `notes` gathers what of a file was left out. Raises `InputError` for a mesh file that cannot be the target of its design. Each file is read
     once for each span, whatever the number of designs.
     """
     heights: dict[tuple[str, float], float] = {}
@@ -62,9 +63,10 @@ def measure_surface_files(designs: Iterable[Design], source: str) -> list[Design
         key = design.surface, design.span
         if design.surface not in SURFACES and key not in heights:
             try:
-                vertices = read_surface(*key).vertices
+                surface = read_surface(*key)
             except InputError as error:
                 raise InputError(f"{source}: design {design.name!r}: surface: {error}") from None
-            heights[key] = float(f"{np.ptp(vertices[:, 2]):.12g}")
+            heights[key] = float(f"{np.ptp(surface.vertices[:, 2]):.12g}")
+            notes += [f"{design.surface}: {note}" for note in surface.notes]
         found.append(replace(design, height=heights.get(key, design.height)))
     return found

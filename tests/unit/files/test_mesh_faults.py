@@ -101,3 +101,11 @@ def test_what_is_no_plain_file_is_refused_at_once(tmp_path):
     os.mkfifo(tmp_path / "pipe.tsv")
     with pytest.raises(InputError, match=r"pipe\.tsv: cannot be read: not a plain file"):
         load_study({"designs": str(tmp_path / "pipe.tsv")})
+
+
+def test_what_is_left_out_of_a_surface_is_said(tmp_path):
+    text = (FAULTS / "slash.obj").read_text()
+    (tmp_path / "twice.obj").write_text(text + "f 1// 14// 15// 2//\n")  # its first face again
+    said = []
+    load_study(write_table(tmp_path, tmp_path / "twice.obj"), say=said.append)
+    assert said == [f"{tmp_path / 'twice.obj'}: 2 triangles that stood twice left out"]
