@@ -54,8 +54,8 @@ def load_study(
 def measure_surface_files(designs: Iterable[Design], source: str, notes: list[str]) -> list[Design]:
     """Return the designs, those on a mesh file with the height that the file has, m.
 
-    `notes` gathers what of a file was left out. Raises `InputError` for a mesh file that cannot be the target of its design. Each file is read
-    once for each span, whatever the number of designs.
+    `notes` gathers what of a file was left out. Raises `InputError` for a mesh file that cannot be
+    the target of its design. Each file is read once for each span, whatever the number of designs.
     """
     heights: dict[tuple[str, float], float] = {}
     found = []
