@@ -17,6 +17,7 @@ _HOMES = {
     "size_shell": "foldshell.library",
     "write_workbook": "foldshell.library",
     "write_pattern": "foldshell.library",
+    "read_panels": "foldshell.pattern.read_panels",
     "snakefile": "foldshell.library",
 }
 
