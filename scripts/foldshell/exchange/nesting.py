@@ -54,7 +54,7 @@ def nest_panels(panels: Sequence[FlatPanel], length: float, width: float, second
     for panel in panels:
         key = (panel.panel.sized, panel.panel.thickness_class)
         groups.setdefault(key, []).append(panel)
-    small = sum(panel.area for panel in panels if MANY * panel.area <= length * width)
+    small = sum(flat.area for flat in panels if _is_small(flat.corners, length, width))
     seconds = max(1, int(seconds / (TRIES * (small / (length * width) + len(groups)))))
     sheets: list[Sheet] = []
     oversize: list[int] = []
@@ -71,19 +71,24 @@ def nest_panels(panels: Sequence[FlatPanel], length: float, width: float, second
 
 
 def _nest_group(outlines: dict[int, np.ndarray], length: float, width: float, seconds: int):
-    mean = np.mean([_area(outline) for outline in outlines.values()])
-    packer = RowPacker(outlines, length, width, GAP)
-    if length * width < MANY * mean:
-        single = [(row.keys, row.outlines) for row in packer.fill()]
-        return min(single, _in_two_rows(outlines, length, width), key=len), packer.oversize
-    left = {key: outlines[key] for key in packer.turns}
-    sheets = []
-    while left:
-        keys, places = _fill_sheet(left, length, width, seconds)
+    """Return sheets (keys, outlines) of one class, and the keys of panels that no sheet takes."""
+    small = {key: outline for key, outline in outlines.items() if _is_small(outline, length, width)}
+    large = {key: outline for key, outline in outlines.items() if key not in small}
+    packer = RowPacker(large, length, width, GAP)
+    single = [(row.keys, row.outlines) for row in packer.fill()]
+    sheets = min(single, _in_two_rows(large, length, width), key=len)
+    while small:
+        keys, places = _fill_sheet(small, length, width, seconds)
         sheets.append((keys, places))
         for key in keys:
-            del left[key]
+            del small[key]
     return sheets, packer.oversize
+
+
+def _is_small(outline: np.ndarray, length: float, width: float) -> bool:
+    """Whether a sheet takes many such panels, in any turn."""
+    reach = np.linalg.norm(outline[:, None] - outline[None], axis=2).max()
+    return MANY * _area(outline) <= length * width and reach <= min(length, width)
 
 
 def _in_two_rows(outlines: dict[int, np.ndarray], length: float, width: float):
@@ -125,13 +130,18 @@ def _fill_sheet(left: dict[int, np.ndarray], length: float, width: float, second
         if keys == tried:
             continue
         tried, places = keys, _nest_strip({key: left[key] for key in keys}, width, seconds)
-        if max(outline[:, 0].max() for outline in places) <= length:
+        if places and max(outline[:, 0].max() for outline in places) <= length:
             return tuple(keys), tuple(places)
-    raise AssertionError("a panel that fits a sheet was not placed on it")
+    row = RowPacker({order[0]: left[order[0]]}, length, width, GAP).fill()[0]
+    return row.keys, row.outlines
 
 
 def _nest_strip(outlines: dict[int, np.ndarray], width: float, seconds: int) -> list[np.ndarray]:
-    """Nest outlines on as short a strip as the library finds; the corners of each, (k, 2) m."""
+    """Nest outlines on as short a strip as the library finds; the corners of each, (k, 2) m.
+
+    Empty where the library gives up, as it does (it panics) where it finds no turn of a panel that
+    is nearly as wide as the strip.
+    """
     spyrrow = load_library("spyrrow")
     items = [
         spyrrow.Item(str(key), [tuple(point) for point in outline.tolist()], 1, None)
@@ -142,8 +152,14 @@ def _nest_strip(outlines: dict[int, np.ndarray], width: float, seconds: int) -> 
         early_termination=True, total_computation_time=seconds, num_workers=1, seed=SEED,
         min_items_separation=GAP,
     )  # fmt: skip
+    try:
+        solution = problem.solve(config)
+    except BaseException as error:  # what Rust calls a panic is no Exception
+        if type(error).__name__ != "PanicException":
+            raise
+        return []
     places = {}
-    for item in problem.solve(config).placed_items:
+    for item in solution.placed_items:
         angle = np.radians(item.rotation)
         turn = np.array([[np.cos(angle), np.sin(angle)], [-np.sin(angle), np.cos(angle)]])
         places[int(item.id)] = outlines[int(item.id)] @ turn + item.translation
