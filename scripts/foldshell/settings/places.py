@@ -15,6 +15,7 @@ RESERVED = _STUDY | _DEVICES | {"con", "prn", "aux", "nul"}
 """Folders and files under results/ that are no designs, and devices that Windows cannot create."""
 
 _FOLDER = re.compile(r"[A-Za-z0-9_][A-Za-z0-9._-]*(/[A-Za-z0-9_][A-Za-z0-9._-]*)*")
+_TAG = re.compile(r"[a-z0-9][a-z0-9_]{0,31}")
 _RECORD = "table.txt"
 """Below studies/: the table whose designs are in a folder of results."""
 
@@ -23,8 +24,13 @@ def choose_results(settings: Settings) -> str:
     """Return the folder of the results of a table: `results`, for a table other than designs.tsv
     `results/<its name>`, or what the setting `results` says.
 
-    Raises `InputError` for a name that is reserved or that Snakemake would read as a pattern.
+    Raises `InputError` for a name that is reserved or that Snakemake would read as a pattern, and
+    for a study that can be no tag.
     """
+    if not _TAG.fullmatch(settings.study):
+        raise InputError(
+            f"study: {settings.study!r}: a tag of lower-case letters, digits and _ is allowed"
+        )
     if settings.results != AUTO:
         if not _FOLDER.fullmatch(settings.results):
             raise InputError(

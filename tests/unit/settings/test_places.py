@@ -30,6 +30,12 @@ def test_a_folder_outside_or_a_pattern_is_refused(results):
         choose_results(make_settings({"results": results}))
 
 
+@pytest.mark.parametrize("study", ["{design}", "../x", "a b", "MINE", "-x", "a" * 40])
+def test_a_study_that_can_be_no_tag_is_refused(study):
+    with pytest.raises(InputError, match="study"):
+        choose_results(make_settings({"study": study}))
+
+
 @pytest.mark.parametrize("name", NAMES.split())
 def test_reserved_names_are_refused_for_designs_and_tables(name, tmp_path):
     assert name in RESERVED
