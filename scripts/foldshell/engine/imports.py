@@ -9,6 +9,7 @@ some forty files a job and a thousand jobs.
 import ast
 import functools
 import hashlib
+import re
 from collections.abc import Iterable
 from pathlib import Path
 
@@ -16,6 +17,9 @@ from foldshell.files.package_data import library_folder
 from foldshell.files.whole import hash_file, write_text_if_changed
 
 PACKAGE = "foldshell"
+_STATEMENT = re.compile(
+    r"^[ \t]*(from[ \t]+[\w.]+[ \t]+import[ \t]*(?:\([^)]*\)|[^\n(]+)|import[ \t]+[\w., \t]+)", re.M
+)
 
 
 def write_library_list(script: str | Path, root: str | Path, folder: str | Path) -> str:
@@ -75,18 +79,34 @@ def _root_of(path: Path, root: Path) -> Path:
 @functools.cache
 def _imported(path: Path, root: Path) -> tuple[Path, ...]:
     """Return the files below `root` that one file imports, packages' __init__ included."""
-    names: set[str] = set()
-    for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Import):
-            names.update(alias.name for alias in node.names)
-        elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
-            names.add(node.module)
-            names.update(f"{node.module}.{alias.name}" for alias in node.names)
-    files = (file for name in sorted(names) for file in _resolve(name, root))
+    names = sorted(_imported_names(path.read_text(encoding="utf-8")))
+    files = (file for name in names for file in _resolve(name, root))
     return tuple(file for file in dict.fromkeys(files) if file != path)
 
 
-def _resolve(name: str, root: Path) -> list[Path]:
+def _imported_names(text: str) -> set[str]:
+    """Return the dotted names that a Python text imports, anywhere.
+
+    Only its import statements are parsed: to parse the whole library takes a second of each start.
+    One that stands in a docstring counts too, which makes a rule run once more at worst.
+    """
+    names: set[str] = set()
+    for statement in _STATEMENT.findall(text):
+        try:
+            nodes = ast.parse(statement).body
+        except SyntaxError:  # words of a docstring
+            continue
+        for node in nodes:
+            if isinstance(node, ast.Import):
+                names.update(alias.name for alias in node.names)
+            elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
+                names.add(node.module)
+                names.update(f"{node.module}.{alias.name}" for alias in node.names)
+    return names
+
+
+@functools.cache
+def _resolve(name: str, root: Path) -> tuple[Path, ...]:
     """Return the module file of a dotted name and the __init__ files on the way to it."""
     parts = name.split(".")
     if parts[0] == PACKAGE and not (root / PACKAGE).is_dir():
@@ -94,5 +114,5 @@ def _resolve(name: str, root: Path) -> list[Path]:
     package_files = [root.joinpath(*parts[:k], "__init__.py") for k in range(1, len(parts) + 1)]
     module = root.joinpath(*parts).with_suffix(".py")
     if not (module.exists() or root.joinpath(*parts, "__init__.py").exists()):
-        return []
-    return [file for file in [*package_files, module] if file.exists()]
+        return ()
+    return tuple(file for file in [*package_files, module] if file.exists())

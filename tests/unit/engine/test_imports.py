@@ -1,5 +1,6 @@
 """The library files of a script are all that it imports, at any depth, and nothing else."""
 
+import ast
 from pathlib import Path
 
 from foldshell.engine import imports
@@ -24,6 +25,18 @@ def test_imports_are_followed_two_deep(tmp_path):
     script = write(tmp_path, "run.py", "from lib.a import x\n")
     names = [Path(file).name for file in library_files(script, tmp_path)]
     assert names == ["__init__.py", "a.py", "b.py", "c.py"]
+
+
+def test_every_import_of_the_project_is_found():
+    """As by parsing each file whole."""
+    for path in sorted(SCRIPTS.rglob("*.py")):
+        text, whole = path.read_text(encoding="utf-8"), set()
+        for node in ast.walk(ast.parse(text)):
+            if isinstance(node, ast.Import):
+                whole |= {alias.name for alias in node.names}
+            elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
+                whole |= {node.module, *(f"{node.module}.{alias.name}" for alias in node.names)}
+        assert whole <= imports._imported_names(text), path
 
 
 def test_the_list_changes_with_the_library_and_only_then(tmp_path):
