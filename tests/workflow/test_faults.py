@@ -27,7 +27,7 @@ from study_runner import (
 pytestmark = pytest.mark.slow
 
 ONE_DESIGN = "results/tiny-dome/design.xlsx"
-KILLS = 40
+KILLS = 100
 
 
 def end_like(code, folder, other):
@@ -60,7 +60,7 @@ def kill_something(process, chance):
     return victim
 
 
-def test_forty_kills_leave_the_results_of_an_undisturbed_run(code, finished, tmp_path):
+def test_a_hundred_kills_leave_the_results_of_an_undisturbed_run(code, finished, tmp_path):
     """Scheduler and jobs die at random moments until the study is done; then another one."""
     chance, kills, studies = random.Random(5), 0, 0
     while kills < KILLS:
