@@ -94,3 +94,20 @@ def test_python_examples_run(page, tmp_path, monkeypatch):
     session = {}
     for example in re.findall(r"```python\n(.*?)```", page.read_text(encoding="utf-8"), re.S):
         exec(example, session)
+
+
+def test_citation_codemeta_and_package_agree():
+    """One name, version and licence, whatever file a catalogue reads."""
+    import json
+    import tomllib
+
+    import yaml
+
+    package = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
+    citation = yaml.safe_load((ROOT / "CITATION.cff").read_text(encoding="utf-8"))
+    meta = json.loads((ROOT / "codemeta.json").read_text(encoding="utf-8"))
+    assert package["version"] == str(citation["version"]) == meta["version"]
+    assert citation["license"] == "MIT" and meta["license"].endswith("/MIT")
+    assert meta["name"] == package["name"] == citation["title"].partition(":")[0]
+    paper = citation["references"][0]["doi"]
+    assert meta["referencePublication"]["identifier"].endswith(paper)
