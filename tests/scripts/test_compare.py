@@ -17,6 +17,8 @@ from crosscheck.model import read_model
 from crosscheck.records import MULTIFRONTAL
 from crosscheck.stability import FIRST_ORDER, Method, analyse_mesh
 from crosscheck_models import describe_primary, describe_small_fold, write_model
+from foldshell.records.comparison import ComparisonRecord
+from foldshell.records.files import read_record
 
 SCRIPT = Path(__file__).parents[2] / "scripts" / "compare.py"
 
@@ -57,6 +59,8 @@ def test_agreeing_codes_pass(main, tmp_path, primary_values):
     assert result["not_compared"] == []
     compared = set(result["quantities"])
     assert {"S2 work_knm", "D2 buckling_factor", "S2 Th.II displacement_max_m"} <= compared
+    record = read_record(paths[2], ComparisonRecord)  # refuses keys that it does not know
+    assert record.reactions["S2 supports"].passed and record.governing["displacement"] == "D2"
     assert result["design"] == "test"
     work = result["quantities"]["D2 work_knm"]
     assert work["tolerance"] == 0.03
