@@ -17,7 +17,8 @@ _HELP = {
     "new": "make a folder for a study: table, config, README, Snakefile",
     "run": "run the study of this folder: foldshell run [TARGET or option of snakemake ...]",
     "progress": "say how far a run is",
-    "verify": "say whether the results are still what was made",
+    "verify": "say whether the results are still what was made, or an archive what was put in",
+    "archive": "pack the study of this folder into one file: foldshell archive [option ...]",
     "look": "open the page of a design, or print where it is",
 }
 
@@ -45,10 +46,10 @@ def main(arguments: Sequence[str] | None = None) -> int:
 def run_program(name: str, arguments: Sequence[str]) -> int:
     """Run Snakemake, or one of the scripts beside the rules, in this folder."""
     program = [sys.executable, str(workflow_folder() / f"scripts/{name}.py")]
-    if name == "run":
+    if name in ("run", "archive"):
         if not Path("Snakefile").is_file():
             raise InputError("Snakefile: there is none here: make a study by foldshell new FOLDER")
-        program = [sys.executable, "-m", "snakemake"]
+        program = [sys.executable, "-m", "snakemake", *(["archive"] if name == "archive" else [])]
         if not any(word.startswith(("-c", "--cores", "-j", "--jobs")) for word in arguments):
             program += ["--cores", str(count_cores())]
     path = [str(library_folder()), *filter(None, [os.environ.get("PYTHONPATH")])]
