@@ -9,6 +9,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import bagit
+import yaml
 
 from foldshell.archive.content import (
     CODE,
@@ -85,7 +86,8 @@ def _copy_config(bag: Path, config: Json, tables: Sequence[Path]) -> None:
     """Write the settings of the run, with the tables and files they name beside them."""
     folder = bag / CONFIG
     folder.mkdir()
-    _write_json(folder / "config.yaml", config)  # JSON is YAML too
+    text = yaml.safe_dump(dict(config), sort_keys=False, allow_unicode=True)
+    (folder / "config.yaml").write_text(text, encoding="utf-8")
     for table in tables:
         shutil.copyfile(table, folder / Path(table).name)
 

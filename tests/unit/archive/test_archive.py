@@ -23,6 +23,7 @@ from foldshell.files.errors import InputError  # noqa: E402
 from foldshell.files.job_record import read_records  # noqa: E402
 from foldshell.files.whole import write_arrays, write_json  # noqa: E402
 from foldshell.settings.archive import Archive  # noqa: E402
+from foldshell.settings.config_file import read_config  # noqa: E402
 from results_case import make_results, record  # noqa: E402
 from workbook_cases import edit_with_openpyxl  # noqa: E402
 
@@ -90,6 +91,22 @@ def test_a_bag_that_was_packed_again_after_a_change_is_found(study, tmp_path):
     assert any("history.json" in line for line in check_bag(bag))
     (bag / "data/results/a/page.html").unlink()
     assert any("page.html" in line for line in check_bag(bag))
+
+
+def test_settings_of_an_archive_are_read_as_they_were(study, tmp_path):
+    """Numbers such as 1e-6 are text in the YAML that a plain JSON writer would leave."""
+    config = {"study": "t", "analysis": {"second_order_tolerance": 1e-6, "solver": "cholmod"}}
+    write_archive(
+        tmp_path / "t.zip",
+        study,
+        config,
+        [study.project / "designs.tsv"],
+        "ab" * 32,
+        DATE,
+        Archive(),
+    )
+    bag = unpack(tmp_path / "t.zip", tmp_path / "out")
+    assert read_config(bag / "data/config/config.yaml") == config
 
 
 def test_without_fields_the_last_state_stays(study, tmp_path):
