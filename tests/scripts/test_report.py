@@ -12,7 +12,7 @@ from PIL import Image
 import report
 from foldshell.files.whole import write_json
 from foldshell.report import study_report
-from foldshell.report.checks import Check, find_governing, find_ratio
+from foldshell.report.checks import Check, describe_share, find_governing, find_ratio
 from foldshell.settings.make import make_settings
 from foldshell.settings.stages import stage_parameters
 
@@ -167,6 +167,16 @@ def test_too_large_a_report_is_refused(tmp_path, monkeypatch):
 def test_ratio_knows_on_which_side_of_the_limit_it_is_good(value, limit, met, ratio):
     """1 at the limit, above it only where the check fails, for largest and least values alike."""
     assert find_ratio(value, limit, met) == (None if ratio is None else pytest.approx(ratio))
+
+
+@pytest.mark.parametrize(
+    ("ratio", "words"),
+    [(0.99438, "99 %"), (0.998, "99.8 %"), (0.997, "99.7 %"), (1 - 1e-9, "99.9 %"), (1.0, "100 %"),
+     (1 + 1e-9, "100.1 %"), (1.002, "100.2 %"), (1.2, "120 %"), (None, "–")],
+)  # fmt: skip
+def test_a_share_below_or_above_the_limit_is_not_rounded_to_it(ratio, words):
+    """100 % is the limit itself: tenths near it, always away from it."""
+    assert describe_share(ratio) == words
 
 
 def test_the_governing_check_uses_most_of_its_limit():

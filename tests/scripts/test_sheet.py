@@ -31,7 +31,10 @@ REACTIONS = {
 def run(folder, **options):
     """Write a small case and its sheet; return the text of the page and the data."""
     design = DESIGN | options.pop("design", {})
-    final = {"buckling_factor": {"S1": 3.0, "S2": 2.0, "D2": 4.0}} | options.pop("final", {})
+    final = {
+        "buckling_factor": {"S1": 3.0, "S2": 2.0, "D2": 4.0},
+        "governing_combination": "S2",
+    } | options.pop("final", {})
     comparison = REACTIONS | options.pop("comparison", {})
     paths, pictures = write_files(folder, **options)
     write_json(paths["final"], {k: v for k, v in final_of(**final).items() if v is not None})
@@ -60,6 +63,9 @@ def test_sheet_says_what_is_checked_and_where(tmp_path):
                   "sum z [kN]", "first strip edge", "self-weight down", "1.57 %"):  # fmt: skip
         assert words in text, words
     assert [check["met"] for check in data["checks"]] == [True, True, True]
+    used = data["checks"][0]["where"]
+    assert re.fullmatch(r"combination S2, panel 0 at x -?[\d.]+, y -?[\d.]+, z -?[\d.]+ m", used)
+    assert used in data["governing"] and "utilization, panel 0, S2" in text
     assert data["checks"][0]["bar"] == pytest.approx(0.81 / 1.25)
     sums = [row for row in data["tables"]["Reactions"]["rows"] if row[1] == "sum"]
     assert [row[0] for row in sums] == ["S1", "S2", "D1", "D2"]

@@ -1,6 +1,7 @@
 """The checks of a design with the share of its limit that each uses; the largest one governs."""
 
-from collections.abc import Sequence
+import math
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -8,10 +9,13 @@ from foldshell.files.whole import Json, read_json
 from foldshell.records.analysis import AnalysisRecord, Criterion
 from foldshell.records.entry import Entry
 from foldshell.report.markup import format_number
+from foldshell.report.places import PanelPlace, describe_place, read_panels
 
 LIMITS = ("utilization_panel_mean", "utilization_element_max", "displacement_vertical_m",
           "edge_beam_utilization")  # fmt: skip
 """Criteria of the sizing loop that are limits of a structure; the others stop the loop."""
+ROUNDING = 1e-6
+"""Tenths of a per cent by which the share of a limit may miss a whole one in binary numbers."""
 BUCKLING = "buckling factor, elastic, perfect shell [-]"
 
 
@@ -31,13 +35,21 @@ class Check:
     def words(self) -> str:
         """The check in one line."""
         share = "" if self.ratio is None else f" ({describe_share(self.ratio)} of its limit)"
-        return f"{self.name}: {format_number(self.value)}, limit {format_number(self.limit)}{share}"
+        text = f"{self.name}: {format_number(self.value)}, limit {format_number(self.limit)}{share}"
+        return f"{text}; {self.where}" if self.where else text
 
 
-def list_checks(final: AnalysisRecord, engineering: Json | None = None) -> list[Check]:
-    """Return the checks of a final state; those of checks/engineering.json follow, if given."""
+def list_checks(
+    final: AnalysisRecord,
+    engineering: Json | None = None,
+    panels: Mapping[str, PanelPlace] | None = None,
+) -> list[Check]:
+    """Return the checks of a final state; those of checks/engineering.json follow, if given.
+
+    `panels` are the most utilized ones by the criterion that finds them.
+    """
     checks = [
-        _of_criterion(about, item, final)
+        _of_criterion(about, item, _find_where(about.key, final, panels or {}))
         for about, item in final.criteria.items()
         if about.key in LIMITS and item.value is not None
     ]
@@ -51,13 +63,21 @@ def list_checks(final: AnalysisRecord, engineering: Json | None = None) -> list[
     return checks
 
 
-def _of_criterion(about: Entry, item: Criterion, final: AnalysisRecord) -> Check:
+def _find_where(key: str, final: AnalysisRecord, panels: Mapping[str, PanelPlace]) -> str:
+    """Return combination, panel and place that govern a criterion, as far as they are known."""
+    if key == "displacement_vertical_m" and final.displacement_combination:
+        place = final.displacement_place_m
+        at = f" at {describe_place(place)}" if place else ""
+        return f"combination {final.displacement_combination}{at}"
+    if key not in ("utilization_panel_mean", "utilization_element_max"):
+        return ""
+    governing = final.governing_combination
+    parts = [f"combination {governing}"] if governing else []
+    return ", ".join([*parts, panels[key].words] if key in panels else parts)
+
+
+def _of_criterion(about: Entry, item: Criterion, where: str) -> Check:
     scale, words = (1e3, f"{about.words} [mm]") if about.unit == "m" else (1.0, about.label())
-    where = ""
-    if about.key == "displacement_vertical_m" and final.displacement_combination:
-        where = f"combination {final.displacement_combination}"
-        if final.displacement_place_m:
-            where += " at x {:.1f}, y {:.1f}, z {:.1f} m".format(*final.displacement_place_m)
     ratio = item.value / item.limit if item.limit else None
     return Check(words, scale * item.value, scale * item.limit, ratio, item.met, where)
 
@@ -84,14 +104,33 @@ def find_ratio(value: float | None, limit: float | None, met: bool | None) -> fl
 
 
 def describe_share(ratio: float | None) -> str:
-    """Return the share of a limit in whole per cent, a dash where there is none."""
-    return "–" if ratio is None else f"{100 * ratio:.0f} %"
+    """Return the share of a limit in per cent, a dash where there is none.
+
+    In whole ones but near the limit: what is below the limit, or above it, is not rounded to it.
+    """
+    if ratio is None:
+        return "–"
+    percent = 100 * ratio
+    if round(percent) != 100 or percent == 100:
+        return f"{percent:.0f} %"
+    if percent < 100:
+        return f"{min(math.floor(10 * percent + ROUNDING) / 10, 99.9):.1f} %"
+    return f"{max(math.ceil(10 * percent - ROUNDING) / 10, 100.1):.1f} %"
 
 
 def find_governing(checks: Sequence[Check]) -> Check | None:
     """Return the check that uses most of its limit."""
     known = [check for check in checks if check.ratio is not None]
     return max(known, key=lambda check: check.ratio, default=None)
+
+
+def read_checks(final: AnalysisRecord, paths: Mapping[str, str | Path]) -> list[Check]:
+    """Return the checks of a final state with what files of its design add.
+
+    `paths` are final (json), arrays (final.npz) and folded (npz).
+    """
+    engineering = read_engineering(Path(paths["final"]).parents[1])
+    return list_checks(final, engineering, read_panels(paths["arrays"], paths["folded"]))
 
 
 def read_engineering(folder: str | Path) -> Json | None:

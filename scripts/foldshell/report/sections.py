@@ -14,13 +14,7 @@ from foldshell.records.history import HistoryRow
 from foldshell.records.mesh_convergence import MeshConvergenceRecord
 from foldshell.records.quality import QualityRecord
 from foldshell.records.table import read_rows
-from foldshell.report.checks import (
-    Check,
-    describe_share,
-    find_governing,
-    list_checks,
-    read_engineering,
-)
+from foldshell.report.checks import Check, describe_share, find_governing, read_checks
 from foldshell.report.history_chart import Series, draw_history
 from foldshell.report.markup import format_number, make_table
 from foldshell.report.quality_sections import make_crosscheck, make_mesh_error
@@ -91,7 +85,7 @@ def read_files(design: Design, paths: Mapping[str, str | Path]) -> DesignFiles:
         mesh_convergence=read_record(paths["mesh_convergence"], MeshConvergenceRecord),
         comparison=read_comparison(paths["comparison"]),
         history=read_rows(paths["history"], HistoryRow),
-        checks=list_checks(final, read_engineering(Path(paths["final"]).parents[1])),
+        checks=read_checks(final, paths),
     )
 
 

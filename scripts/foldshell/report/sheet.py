@@ -10,9 +10,10 @@ from foldshell.files.whole import Json
 from foldshell.records.analysis import AnalysisRecord
 from foldshell.records.comparison import ComparisonRecord
 from foldshell.records.mesh_convergence import MeshConvergenceRecord
-from foldshell.report.checks import Check, find_governing
+from foldshell.report.checks import Check, describe_share, find_governing
 from foldshell.report.loads_section import describe_loads
 from foldshell.report.markup import Table, format_number, make_table
+from foldshell.report.places import find_panel
 from foldshell.report.sketch import Mark
 from foldshell.results.design_view import DesignView
 from foldshell.results.fields import choose_buckling
@@ -40,10 +41,10 @@ class SheetFiles:
 def find_marks(view: DesignView, final: AnalysisRecord) -> list[Mark]:
     """Return the places that govern: largest panel mean, displacement and buckling mode."""
     state, marks = view.state, []
-    if state.utilization is not None:
-        panel = int(np.argmax(state.final.utilization_panel_mean))
-        middle = state.folded.vertices[state.folded.quads[panel]].mean(axis=0)
-        marks.append(Mark("U", f"utilization, panel {panel}", middle.tolist()))
+    most = find_panel(state.final.utilization(view.sizing.measure), state.folded)
+    if state.utilization is not None and most is not None:
+        under = f", {final.governing_combination}" if final.governing_combination else ""
+        marks.append(Mark("U", f"utilization, panel {most.panel}{under}", most.middle))
     if final.displacement_place_m:
         marks.append(Mark("D", f"displacement, {final.displacement_combination}",
                           final.displacement_place_m))  # fmt: skip
@@ -89,7 +90,7 @@ def _bar(check: Check) -> Json:
         **{key: value for key, value in asdict(check).items() if key in ("name", "where", "met")},
         "value": format_number(check.value),
         "limit": format_number(check.limit),
-        "share": "–" if ratio is None else f"{100 * ratio:.0f} %",
+        "share": describe_share(ratio),
         "bar": min(ratio or 0.0, BAR_END) / BAR_END,
     }
 

@@ -7,7 +7,7 @@ from foldshell.records.analysis import read_analysis
 from foldshell.records.comparison import read_comparison
 from foldshell.records.files import read_record
 from foldshell.records.mesh_convergence import MeshConvergenceRecord
-from foldshell.report.checks import list_checks, read_engineering
+from foldshell.report.checks import read_checks
 from foldshell.report.sheet import SheetFiles
 from foldshell.results.design_view import DesignView, view_design
 from foldshell.results.reactions import find_reactions
@@ -27,7 +27,7 @@ def read_sheet(
     state = read_state(design.name, *state_paths, settings.combinations)
     final = read_analysis(paths["final"])
     convergence = read_record(paths["mesh_convergence"], MeshConvergenceRecord)
-    checks = list_checks(final, read_engineering(Path(paths["final"]).parents[1]))
+    checks = read_checks(final, paths)
     view = view_design(state, settings, design.span, design.pattern)
     comparison, reactions = read_comparison(paths["comparison"]), find_reactions(view, settings)
     return SheetFiles(design, final, comparison, convergence, checks, reactions), view

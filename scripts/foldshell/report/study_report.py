@@ -18,7 +18,7 @@ from foldshell.records.mesh_convergence import MeshConvergenceRecord
 from foldshell.records.summary import SummaryRow
 from foldshell.records.table import read_rows
 from foldshell.report.beside import list_exports
-from foldshell.report.checks import Check, find_governing, list_checks, read_engineering
+from foldshell.report.checks import Check, describe_share, find_governing, read_checks
 from foldshell.report.loads_section import describe_loads
 from foldshell.report.markdown import render_markdown
 from foldshell.report.markup import Table, make_table, render
@@ -75,11 +75,13 @@ def read_study(
 
 
 def _read_design(row: SummaryRow, folder: Path) -> DesignEntry:
-    final = read_analysis(folder / "sizing/final.json")
+    paths = {"final": folder / "sizing/final.json", "arrays": folder / "sizing/final.npz",
+             "folded": folder / "folded/folded.npz"}  # fmt: skip
+    final = read_analysis(paths["final"])
     return DesignEntry(
         row,
         final,
-        list_checks(final, read_engineering(folder)),
+        read_checks(final, paths),
         read_comparison(folder / "crosscheck/comparison.json"),
         read_record(folder / "mesh_convergence.json", MeshConvergenceRecord),
         list_exports(folder),
@@ -175,7 +177,7 @@ def list_worst(designs: Sequence[DesignEntry]) -> Table:
             if check.ratio is not None and (known is None or check.ratio > known[1].ratio):
                 found[check.name] = (entry.name, check)
     rows = [
-        (check.name, name, check.value, check.limit, f"{100 * check.ratio:.0f} %",
+        (check.name, name, check.value, check.limit, describe_share(check.ratio),
          "yes" if check.met else "no", check.where)
         for name, check in found.values()
     ]  # fmt: skip
