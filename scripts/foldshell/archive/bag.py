@@ -16,6 +16,7 @@ from foldshell.archive.content import (
     CONFIG,
     LEFT_OUT,
     RESULTS,
+    RULE,
     Study,
     clean_text,
     export_code,
@@ -134,7 +135,12 @@ def _describe(study: Study, bag: Path, commit: str, date: str) -> Json:
             commit=commit,
             snakemake=version("snakemake"),
             files=files,
-            records={name: read_records(study.results / name) for name in names},
+            records={
+                name: [
+                    record for record in read_records(study.results / name) if record.rule != RULE
+                ]
+                for name in names
+            },
         )
     )
 

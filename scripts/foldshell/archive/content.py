@@ -11,12 +11,15 @@ from io import BytesIO
 from pathlib import Path
 
 from foldshell.files.errors import InputError
+from foldshell.files.job_record import FOLDER
 
 FIELDS = (".vtu", ".npz")
 """Endings of the large files of fields, which an archive may leave out."""
 NEEDED_FIELDS = ("folded.npz", "mesh.npz", "final.npz")
 """Fields that stay in any case: shape, mesh and final state of a design."""
 CODE, RESULTS, CONFIG = "code", "results", "config"
+RULE = "archive_study"
+"""The rule that makes an archive: its record of an earlier one stays outside, as that one does."""
 LEFT_OUT = "left-out.txt"
 """Lists the results that an archive without fields leaves out."""
 
@@ -48,7 +51,8 @@ def list_results(study: Study, fields: bool) -> Iterator[tuple[Path, str]]:
 
 
 def _wanted(path: Path, study: Study, fields: bool) -> bool:
-    if path.name.startswith(".") or path.is_relative_to(study.home / "archive"):
+    own = study.home / "archive", study.home / FOLDER / f"{RULE}.json"
+    if path.name.startswith(".") or any(path.is_relative_to(place) for place in own):
         return False
     named = {"benchmarks", "logs"} & set(path.parts)
     if named and not any(design in path.as_posix() for design in study.designs):

@@ -109,6 +109,16 @@ def test_settings_of_an_archive_are_read_as_they_were(study, tmp_path):
     assert read_config(bag / "data/config/config.yaml") == config
 
 
+def test_an_earlier_archive_stays_outside(study, tmp_path):
+    """With the record of the job that made it: what it names is not in the new one."""
+    write_json(study.home / "archive/archive.json", {"file": "old.zip"})
+    record(study.home, "archive_study", "archive_study", ["archive/archive.json"])
+    path = write(study, tmp_path / "t.zip")
+    with zipfile.ZipFile(path) as archive:
+        assert not any("archive" in name for name in archive.namelist())
+    assert verify.verify_archive(path)[1] == 0
+
+
 def test_without_fields_the_last_state_stays(study, tmp_path):
     path = write(study, tmp_path / "t.zip", fields=False)
     with zipfile.ZipFile(path) as archive:
