@@ -9,6 +9,9 @@ from foldshell.files.job_record import hash_result, read_records
 from foldshell.files.manifest import make_manifest, read_manifest, write_manifest
 from foldshell.files.whole import hash_data, hash_file
 
+AFTERWARDS = ("archive_study",)
+"""Rules that work on what a manifest tells of, and are no part of it."""
+
 
 def main(
     path: str | Path,
@@ -23,7 +26,7 @@ def main(
     `members` are the manifests of a study's designs; `code` is the folder of the workflow.
     """
     home = Path(path).parent
-    records = read_records(home)
+    records = [record for record in read_records(home) if record.rule not in AFTERWARDS]
     decided = sorted(read_manifest(member).result_sha256 for member in members)
     write_manifest(
         path,
