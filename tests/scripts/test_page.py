@@ -37,6 +37,7 @@ def test_page_holds_everything_that_is_said_of_the_design(tmp_path):
                  "planarity"):  # fmt: skip
         assert part in words or part in text
     assert "data:image/webp;base64," in text
+    assert 'href="sheet.html"' in text.split("<main>", maxsplit=1)[0]
     facts, packed = read_data(text)
     arrays = unpack_arrays(facts["arrays"], packed)
     fields = {f"field_{field['name']}" for field in facts["fields"]} - {"field_displacement"}

@@ -60,7 +60,9 @@ def test_sheet_says_what_is_checked_and_where(tmp_path):
     text, data = run(tmp_path)
     for words in ("converged", "governs:", "81 %", "utilization, panel", "displacement, D1",
                   "buckling mode, S2", "zig-zag edge, free", "strip edge, pinned", "1 m",
-                  "sum z [kN]", "first strip edge", "self-weight down", "1.57 %"):  # fmt: skip
+                  "sum z [kN]", "first strip edge", "self-weight down", "1.57 %",
+                  "second order (Th.II): equilibrium on the deformed shell",
+                  "The mean utilization of a panel decides"):  # fmt: skip
         assert words in text, words
     assert [check["met"] for check in data["checks"]] == [True, True, True]
     used = data["checks"][0]["where"]

@@ -1,10 +1,15 @@
 """Sections of a page on how good its numbers are: cross-check and mesh error."""
 
-from foldshell.records.comparison import ComparisonRecord
+from foldshell.records.comparison import ComparedQuantity, ComparisonRecord
 from foldshell.records.entry import SIGNS, entries, name_key
 from foldshell.records.mesh_convergence import CombinationStudy, MeshConvergenceRecord
 from foldshell.report.markup import make_table
-from foldshell.report.section import Box, Section, judge_met
+from foldshell.report.reading import say_compared
+from foldshell.report.section import Box, Folded, Section, judge_met
+
+COMPARED = ("quantity", "primary", "independent", "difference [%]", "tolerance [%]", "within")
+NOISE = 1e-6
+"""Share of the largest force up to which one is rounding and shown as 0."""
 
 
 def name_quantity(key: str, unit: str = "-") -> str:
@@ -36,17 +41,43 @@ def make_crosscheck(comparison: ComparisonRecord) -> Section:
     passed = comparison.passed
     words = "every quantity is within its tolerance" if passed else "not within tolerance"
     note = comparison.reason
-    rows = [
-        (
-            name_quantity(name, "mm" if item.unit == "m" else item.unit),
-            _show(item.primary, item.unit),
-            _show(item.independent, item.unit),
-            _percent(item.relative_difference),
-            _percent(item.tolerance),
-            judge_met(item.passed),
-        )
-        for name, item in comparison.quantities.items()
-    ]
+    rows = [_compare(name, item) for name, item in comparison.quantities.items()
+            if not _is_reaction(name)]  # fmt: skip
+    said = [say_compared(comparison), say_shear(comparison)]
+    return Section(
+        "Cross-check by the independent code",
+        Box("good" if passed else "bad", f"{words}: {note}" if note else words),
+        words=" ".join(filter(None, said)),
+        table=make_table(COMPARED, rows) if rows else None,
+        folded=_fold_reactions(comparison),
+    )
+
+
+def _is_reaction(name: str) -> bool:
+    return name.split()[-1].startswith("reaction")
+
+
+def _compare(name: str, item: ComparedQuantity, noise: float = 0.0) -> tuple:
+    """Return a row of both codes; values (in `unit`) up to `noise` are shown as 0."""
+    values = (0.0 if abs(one) <= noise else one for one in (item.primary, item.independent))
+    return (
+        name_quantity(name, "mm" if item.unit == "m" else item.unit),
+        *(_show(one, item.unit) for one in values),
+        _percent(item.relative_difference),
+        _percent(item.tolerance),
+        judge_met(item.passed),
+    )
+
+
+def _fold_reactions(comparison: ComparisonRecord) -> Folded | None:
+    """Return the rows of reactions, which are many; open where one is not within tolerance."""
+    found = {name: one for name, one in comparison.quantities.items() if _is_reaction(name)}
+    forces = [abs(one) for item in found.values() if item.unit == "kN"
+              for one in (item.primary, item.independent)]  # fmt: skip
+    noise = NOISE * max(forces, default=0.0)
+    rows = [_compare(name, item, noise if item.unit == "kN" else 0.0)
+            for name, item in found.items()]  # fmt: skip
+    thrusts = comparison.reactions or {}
     rows += [
         (
             f"{name}, thrust [kN]",
@@ -56,15 +87,12 @@ def make_crosscheck(comparison: ComparisonRecord) -> Section:
             _percent(item.tolerance),
             judge_met(item.passed),
         )
-        for name, item in (comparison.reactions or {}).items()
+        for name, item in thrusts.items()
     ]
-    header = ("quantity", "primary", "independent", "difference [%]", "tolerance [%]", "within")
-    return Section(
-        "Cross-check by the independent code",
-        Box("good" if passed else "bad", f"{words}: {note}" if note else words),
-        words=say_shear(comparison),
-        table=make_table(header, rows) if rows else None,
-    )
+    if not rows:
+        return None
+    missed = any(item.passed is False for item in (*found.values(), *thrusts.values()))
+    return Folded(f"Reactions of both codes: {len(rows)} rows", make_table(COMPARED, rows), missed)
 
 
 def say_shear(comparison: ComparisonRecord) -> str:

@@ -17,6 +17,15 @@ class Box:
 
 
 @dataclass(frozen=True)
+class Folded:
+    """A table that a click on its words shows; `shown` where it is open from the start."""
+
+    words: str
+    table: Table
+    shown: bool = False
+
+
+@dataclass(frozen=True)
 class Section:
     """A titled part of a page; what it lacks is left out."""
 
@@ -26,6 +35,7 @@ class Section:
     table: Table | None = None
     chart: str = ""
     note: str = ""
+    folded: Folded | None = None
 
 
 def judge_met(met: Any) -> Cell:

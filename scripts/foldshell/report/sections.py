@@ -18,6 +18,7 @@ from foldshell.report.checks import Check, describe_share, find_governing, read_
 from foldshell.report.history_chart import Series, draw_history
 from foldshell.report.markup import format_number, make_table
 from foldshell.report.quality_sections import make_crosscheck, make_mesh_error
+from foldshell.report.reading import say_both
 from foldshell.report.section import Box, Section, judge_met
 from foldshell.results.comparisons import UNFOLDED
 from foldshell.results.design_view import count_analyses
@@ -94,7 +95,7 @@ def make_sections(files: DesignFiles, utilization_max: float) -> list[Section]:
     return [
         make_verdict(files.final, files.history),
         *make_warnings(files.final),
-        make_checks(files.checks),
+        make_checks(files.checks, say_both([files.final])),
         make_criteria(files.final.criteria),
         make_history(files.history, utilization_max),
         make_headlines(files.final),
@@ -133,8 +134,11 @@ def make_warnings(final: AnalysisRecord) -> list[Section]:
     return [Section("Model", Box("bad", words, head))] if found else []
 
 
-def make_checks(checks: Sequence[Check]) -> Section:
-    """Return the checks with the share of its limit that each uses; what governs stands first."""
+def make_checks(checks: Sequence[Check], reading: str = "") -> Section:
+    """Return the checks with the share of its limit that each uses; what governs stands first.
+
+    `reading` says how the values are to be read.
+    """
     governing = find_governing(checks)
     if governing is None:
         return Section("Checks", words="No check has a value: the analysis gave no results.")
@@ -145,7 +149,7 @@ def make_checks(checks: Sequence[Check]) -> Section:
     ]  # fmt: skip
     header = ("check", "value", "limit", "of its limit", "met", "where")
     box = Box("good" if governing.met else "bad", governing.words, "governs")
-    return Section("Checks", box, table=make_table(header, rows))
+    return Section("Checks", box, words=reading, table=make_table(header, rows))
 
 
 def describe_edits(history: Sequence[HistoryRow]) -> str:

@@ -14,6 +14,7 @@ from foldshell.report.checks import Check, describe_share, find_governing
 from foldshell.report.loads_section import describe_loads
 from foldshell.report.markup import Table, format_number, make_table
 from foldshell.report.places import find_panel
+from foldshell.report.reading import say_measure, say_theory
 from foldshell.report.sketch import Mark
 from foldshell.results.design_view import DesignView
 from foldshell.results.fields import choose_buckling
@@ -75,6 +76,8 @@ def make_sheet(files: SheetFiles, view: DesignView, settings: StageSettings) -> 
         "good": files.final.verdict in GOOD_VERDICTS,
         "reason": files.final.reason,
         "governing": governing.words if governing else "no check has a value",
+        "reading": say_theory(files.final),
+        "measure": say_measure(files.final),
         "checks": [_bar(check) for check in files.checks],
         "tables": {name: list_texts(table) for name, table in tables.items() if table.rows},
         "warning": files.final.warning or "",

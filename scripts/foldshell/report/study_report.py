@@ -23,6 +23,7 @@ from foldshell.report.loads_section import describe_loads
 from foldshell.report.markdown import render_markdown
 from foldshell.report.markup import Table, make_table, render
 from foldshell.report.provenance import Provenance
+from foldshell.report.reading import say_both, say_compared
 from foldshell.report.study_columns import Column, choose_columns, count_verdicts, make_row
 from foldshell.report.study_pages import list_settings
 from foldshell.report.verification import make_verification
@@ -109,6 +110,8 @@ def write_study_report(
         verdicts=count_verdicts([entry.row for entry in files.designs]),
         kinds=describe_kinds([entry.row for entry in files.designs]),
         worst=list_worst(files.designs),
+        reading=say_both(entry.final for entry in files.designs),
+        compared=next(filter(None, (say_compared(one.comparison) for one in files.designs)), ""),
         columns=columns,
         cards=cards,
         pictures=[{"name": name, "words": sheet["words"], "scale": sheet["scale"]}

@@ -48,7 +48,7 @@ def test_thrusts_and_shear_stand_with_the_cross_check():
         shear={"displacement_down_max_m": share},
     )  # fmt: skip
     section = make_crosscheck(comparison)
-    row = read(section.table)[-1]
+    row = read(section.folded.table)[-1]
     assert row["quantity"] == "D2 first strip edge, thrust [kN]"
     assert (row["primary"], row["independent"]) == (3.0, 3.1)
     assert "adds 4.3 % to D2" in section.words
@@ -57,6 +57,33 @@ def test_thrusts_and_shear_stand_with_the_cross_check():
     section = make_crosscheck(replace(comparison, shear={"displacement_down_max_m": together}))
     assert "116, within 116.7 (the verdict turns with mesh error added)." in section.words
     assert make_crosscheck(make_comparison(True)).words == ""
+
+
+def test_reactions_are_folded_away_and_rounding_is_zero():
+    """1.9e-8 of 5239 kN is rounding, 0.01 kN is not; a row that fails is not hidden."""
+    forces = {"z": (5239.0, 5239.0), "y": (-1.9e-8, 2.6e-9), "x": (0.01, 0.01)}
+    rows = {
+        f"S2 Th.II reaction_{axis}_kn": make_quantity(
+            True, primary=one, independent=other, unit="kN"
+        )
+        for axis, (one, other) in forces.items()
+    }
+    section = make_crosscheck(make_comparison(True, {"S2 work_knm": make_quantity(True)} | rows))
+    assert [row["quantity"] for row in read(section.table)] == ["S2 work [kNm]"]
+    found = [(row["primary"], row["independent"]) for row in read(section.folded.table)]
+    assert found == [(5239.0, 5239.0), (0.0, 0.0), (0.01, 0.01)]
+    assert not section.folded.shown
+    assert "Rows with Th.II are of second order" in section.words
+    rows["S2 Th.II reaction_z_kn"] = make_quantity(False, unit="kN")
+    assert make_crosscheck(make_comparison(False, rows)).folded.shown
+
+
+def test_what_was_extrapolated_is_said_where_it_was():
+    """An order of extrapolation in the record, and only then."""
+    plain = {"S2 work_knm": make_quantity(True)}
+    assert "extrapolated" not in make_crosscheck(make_comparison(True, plain)).words
+    settled = {"S2 work_knm": replace(make_quantity(True), primary_order=2.0)}
+    assert "extrapolated" in make_crosscheck(make_comparison(True, settled)).words
 
 
 def test_columns_of_the_study_are_in_the_unit_of_their_header():
