@@ -46,8 +46,8 @@ def say_compared(comparison: ComparisonRecord) -> str:
         limit = ""
     else:
         limit = (
-            "Values are extrapolated from the meshes of each code to their limit where they have one, "
-            "those of the primary code too: they differ a little from the final state. "
+            "Values are extrapolated from the meshes of each code to their limit where they have "
+            "one, those of the primary code too: they differ a little from the final state. "
         )
     linear = any(SECOND_ORDER not in name.split() for name in comparison.quantities)
     second = any(SECOND_ORDER in name.split() for name in comparison.quantities)

@@ -125,15 +125,25 @@ def explain_left_out(table: Iterable[design_table.Design]) -> dict[str, str]:
     """Return the charts that designs of the table give nothing to compare for, and why."""
     designs = [make_table_design(one) for one in table]
     reasons = {
-        name: f"no two designs tagged {comparison.tag} to compare"
+        name: _explain(designs, comparison.tag)
         for name, comparison in COMPARISONS.items()
         if not sort_into_columns(designs, comparison)
     }
     if not pair_supports(designs):
-        reasons["axes"] = "no two designs tagged density that differ in their supported edges only"
+        reasons["axes"] = (
+            "no two designs tagged density differ in nothing but their supported edges"
+        )
     if not choose_panel_surfaces(designs):
         reasons["planarity_utilization"] = "no folded design"
     return reasons
+
+
+def _explain(designs: Sequence[Design], tag: str) -> str:
+    """Return why designs make no chart of a tag: too few have it, or none fits beside another."""
+    count = sum(tag in design.tags for design in designs)
+    if count < 2:
+        return f"no two designs tagged {tag} to compare"
+    return f"of the {count} designs tagged {tag} no two can be compared in one group of this chart"
 
 
 def _place(value: str, order: Sequence[str]) -> int:

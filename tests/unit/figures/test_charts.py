@@ -92,6 +92,8 @@ def test_one_bar_is_no_chart():
     assert set(explain_left_out(rows)) == {
         "surface", "curvature", "density_zigzag", "density_strip", "axes"
     }  # fmt: skip
+    dense = [replace(one, tags=("density",)) for one in rows]
+    assert explain_left_out(dense)["density_zigzag"].startswith("of the 2 designs tagged density")
     plain = [replace(one, tags=("mine",), pattern="smooth") for one in rows]
     assert len(explain_left_out(plain)) == 7
     assert explain_left_out(plain)["supports"] == "no two designs tagged supports to compare"
