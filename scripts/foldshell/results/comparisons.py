@@ -130,9 +130,7 @@ def explain_left_out(table: Iterable[design_table.Design]) -> dict[str, str]:
         if not sort_into_columns(designs, comparison)
     }
     if not pair_supports(designs):
-        reasons["axes"] = (
-            "no two designs tagged density differ in nothing but their supported edges"
-        )
+        reasons["axes"] = "no two designs tagged density differ in their supported edges alone"
     if not choose_panel_surfaces(designs):
         reasons["planarity_utilization"] = "no folded design"
     return reasons
