@@ -12,10 +12,12 @@ def stop_once() -> None:
     they do not break off the end of the run. Does nothing outside of the main thread."""
 
     def stop(_number: int, _frame: object) -> None:
+        """Stop the run, and have later ones answered."""
         signal.signal(signal.SIGINT, answer)
         raise KeyboardInterrupt
 
     def answer(_number: int, _frame: object) -> None:
+        """Say that the run is stopping, and take no more."""
         signal.signal(signal.SIGINT, signal.SIG_IGN)
         with contextlib.suppress(OSError):
             os.write(2, STOPPING)

@@ -167,6 +167,7 @@ def _largest_angles(plane: np.ndarray) -> np.ndarray:
     a, b, c = plane[:, None, None], plane[None, :, None], plane[None, None, :]
 
     def angle(p: np.ndarray, q: np.ndarray, r: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the angles (...) at p in rad and twice the areas (...), of corners (..., 2)."""
         one, two = q - p, r - p
         turn = one[..., 0] * two[..., 1] - one[..., 1] * two[..., 0]
         return np.arctan2(turn, (one * two).sum(axis=-1)), turn
@@ -192,6 +193,7 @@ def _judge_ear(plane: np.ndarray, left: list[int], k: int) -> float:
     p, q, r = plane[left[k - 1]], plane[left[k]], plane[left[(k + 1) % len(left)]]
 
     def turn(a: np.ndarray, b: np.ndarray, c: np.ndarray) -> np.ndarray:
+        """Return twice the signed areas (...) of triangles a (2,), b (2,), c (..., 2), m2."""
         return (b[0] - a[0]) * (c[..., 1] - a[1]) - (b[1] - a[1]) * (c[..., 0] - a[0])
 
     area = float(turn(p, q, r))
