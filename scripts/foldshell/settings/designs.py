@@ -1,7 +1,5 @@
 """The table of designs: read strictly, validate, fill in defaults, choose by tag."""
 
-import csv
-import io
 import re
 from collections.abc import Iterable, Mapping
 from pathlib import Path
@@ -9,13 +7,13 @@ from pathlib import Path
 from foldshell.files.errors import InputError
 from foldshell.files.meshes.read import FORMATS, is_mesh_file
 from foldshell.settings.check import Reader, parse_text
-from foldshell.settings.config_file import read_text
 from foldshell.settings.consistency import check_thickness
 from foldshell.settings.design import COLUMNS, SURFACES, Design, DesignColumns
 from foldshell.settings.field import list_settings
 from foldshell.settings.nearest import hint_nearest
 from foldshell.settings.places import RESERVED
 from foldshell.settings.study import Settings
+from foldshell.settings.tables import read_table
 
 NAME = re.compile(r"[a-z0-9][a-z0-9_-]{0,63}")
 NAME_ALLOWED = (
@@ -34,7 +32,7 @@ def read_designs(
     Raises `InputError` that names the file, the line, the design, the column and what is allowed.
     """
     path, found = Path(path), []
-    rows = _read_rows(path)
+    rows = list(read_table(path, COLUMNS, ("design",), _DESIGNS_MAX, "design"))
     designs = [_make_design(row, settings, f"{path}: line {line}", found) for line, row in rows]
     _check_unique(designs, [line for line, _ in rows], path)
     if notes is not None:
@@ -51,52 +49,6 @@ def select_designs(designs: Iterable[Design], tag: str, source: str = "designs")
         hint = hint_nearest(tag, known) or f", known tags are {', '.join(known)}"
         raise InputError(f"{source}: tags: {tag!r}: no design has this tag{hint}")
     return chosen
-
-
-def _read_rows(path: Path) -> list[tuple[int, dict[str, str]]]:
-    text = read_text(path)
-    lines = [
-        (number, line)
-        for number, line in enumerate(io.StringIO(text, newline=None), start=1)
-        if line.strip() and not line.startswith("#")
-    ]
-    if not lines:
-        raise InputError(f"{path}: the table is empty: a header and one line per design are due")
-    header_line, header_text = lines[0]
-    header = _split(header_text)
-    _check_header(header, f"{path}: line {header_line}")
-    if len(lines) == 1:
-        raise InputError(f"{path}: no design stands below the header: one line per design is due")
-    if len(lines) - 1 > _DESIGNS_MAX:
-        raise InputError(f"{path}: {len(lines) - 1} designs: at most {_DESIGNS_MAX} are allowed")
-    rows = []
-    for number, line in lines[1:]:
-        cells = _split(line)
-        if len(cells) != len(header):
-            raise InputError(
-                f"{path}: line {number}: {len(cells)} cells: {len(header)} are allowed, as many as "
-                "the header has, with one tab between two"
-            )
-        rows.append((number, dict(zip(header, cells, strict=True))))
-    return rows
-
-
-def _split(line: str) -> list[str]:
-    cells = next(csv.reader([line.rstrip("\r\n")], delimiter="\t", quoting=csv.QUOTE_NONE))
-    return [cell.strip(" ") for cell in cells]
-
-
-def _check_header(header: list[str], place: str) -> None:
-    if len(header) == 1 and header[0] != "design":
-        raise InputError(f"{place}: {header[0][:60]!r}: column names with tabs between are allowed")
-    for index, column in enumerate(header):
-        if column not in COLUMNS:
-            hint = hint_nearest(column, COLUMNS) or f", allowed are {', '.join(COLUMNS)}"
-            raise InputError(f"{place}: column {index + 1}: {column!r}: unknown column{hint}")
-        if column in header[:index]:
-            raise InputError(f"{place}: column {index + 1}: {column!r}: the column stands twice")
-    if "design" not in header:
-        raise InputError(f"{place}: the column 'design' is missing")
 
 
 def _make_design(
