@@ -15,6 +15,7 @@ from foldshell.shell.assembly import (
     find_pattern,
     translation_dofs,
 )
+from foldshell.shell.boundary import find_acting
 from foldshell.shell.buckling import BucklingResult, find_buckling_factors
 from foldshell.shell.geometric import apply_geometric, make_geometric_products
 from foldshell.shell.linear_solver import Factor, NotPositiveDefiniteError, factorise
@@ -31,7 +32,8 @@ class ShellModel:
     """A geometry ready for any thickness: mesh, operators, pattern, supported nodes.
 
     `fixed_thickness` (B,) m is that of the last B panels: not sized, they carry nothing but their
-    own weight (the panels of an edge beam).
+    own weight (the panels of an edge beam). Supports act on the S supported nodes along the
+    directions of `acting` (S, 3) bool, along all where it is None.
     """
 
     mesh: ShellMesh
@@ -39,6 +41,7 @@ class ShellModel:
     pattern: LowerPattern
     supported_nodes: np.ndarray
     fixed_thickness: np.ndarray = field(default_factory=lambda: np.empty(0))
+    acting: np.ndarray | None = None
 
     @property
     def sized_panels(self) -> int:
@@ -91,6 +94,7 @@ def build_model(
     poissons_ratio: float,
     fixed: np.ndarray | None = None,
     fixed_thickness: np.ndarray | None = None,
+    springs: np.ndarray | None = None,
 ) -> ShellModel:
     """Build what depends on the geometry only.
 
@@ -99,6 +103,7 @@ def build_model(
     supported_nodes : nodes held in all three directions
     fixed : further freedoms that are held (`translation_dofs`, `rotation_dofs`)
     fixed_thickness : (B,) m of the last B panels, which are not sized; see `ShellModel`
+    springs : (dofs,) kN/m of elastic supports
 
     Raises
     ------
@@ -107,14 +112,16 @@ def build_model(
     """
     supported = np.asarray(supported_nodes, dtype=np.int64)
     held = translation_dofs(supported)
-    if fixed is not None:
-        held = np.union1d(held, fixed)
+    acting = None
+    if fixed is not None or springs is not None:
+        held = held if fixed is None else np.union1d(held, fixed)
+        supported, acting = find_acting(mesh, held, springs)
     elif len(supported) < 3 or _on_one_line(mesh.nodes[supported]):
         raise ValueError("the supports lie on one line and leave a rotation about it free")
     operators = build_operators(mesh, poissons_ratio)
-    pattern = find_pattern(operators, held)
+    pattern = find_pattern(operators, held, springs)
     own = np.empty(0) if fixed_thickness is None else np.asarray(fixed_thickness, dtype=float)
-    return ShellModel(mesh, operators, pattern, supported, own)
+    return ShellModel(mesh, operators, pattern, supported, own, acting)
 
 
 def _on_one_line(points: np.ndarray) -> bool:

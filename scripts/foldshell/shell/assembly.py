@@ -27,6 +27,7 @@ class LowerPattern:
     dofs : (size,) the degree of freedom of each row
     indptr, indices : compressed columns, rows in ascending order, int64
     put : (E, d(d+1)/2) where each packed element entry is added; one past the end for none
+    springs : (size,) kN/m of elastic supports on the diagonal, None for none
     """
 
     free: np.ndarray
@@ -34,6 +35,7 @@ class LowerPattern:
     indptr: np.ndarray
     indices: np.ndarray
     put: np.ndarray
+    springs: np.ndarray | None = None
 
     @property
     def size(self) -> int:
@@ -52,10 +54,12 @@ def rotation_dofs(mesh: ShellMesh, edges: np.ndarray) -> np.ndarray:
     return (start[:, None] + np.arange(mesh.order)).ravel()
 
 
-def find_pattern(operators: ShellOperators, fixed: np.ndarray) -> LowerPattern:
+def find_pattern(
+    operators: ShellOperators, fixed: np.ndarray, springs: np.ndarray | None = None
+) -> LowerPattern:
     """Find where each packed element entry goes once the `fixed` freedoms are left out.
 
-    `fixed` (k,) are numbers of freedoms.
+    `fixed` (k,) are numbers of freedoms, `springs` (dofs,) kN/m of elastic supports.
     """
     mesh = operators.mesh
     free = np.ones(mesh.dof_count, dtype=bool)
@@ -75,7 +79,8 @@ def find_pattern(operators: ShellOperators, fixed: np.ndarray) -> LowerPattern:
     number[dofs] = np.arange(len(dofs))
     offset = np.where(free, number - first[rank[member]], HELD)
     put = _packed_places(operators.dofs, offset, rank[groups], local_group, columns)
-    return LowerPattern(free, dofs, columns.indptr, columns.indices, put)
+    own = None if springs is None else np.asarray(springs, dtype=float)[dofs]
+    return LowerPattern(free, dofs, columns.indptr, columns.indices, put, own)
 
 
 def assemble_stiffness(
@@ -84,7 +89,7 @@ def assemble_stiffness(
     thickness: np.ndarray,
     youngs_modulus: float,
 ) -> np.ndarray:
-    """Return the nonzeros of K = E (t K_m + t^3 K_b) in the order of `pattern`.
+    """Return the nonzeros of K = E (t K_m + t^3 K_b) + springs in the order of `pattern`.
 
     Parameters
     ----------
@@ -95,7 +100,10 @@ def assemble_stiffness(
     packed = operators.bending * (t * thickness[:, None] ** 2)
     packed[:, : operators.membrane.shape[1]] += operators.membrane * t
     count = len(pattern.indices)
-    return np.bincount(pattern.put.ravel(), packed.ravel(), count + 1)[:count]
+    values = np.bincount(pattern.put.ravel(), packed.ravel(), count + 1)[:count]
+    if pattern.springs is not None:
+        values[pattern.indptr[:-1]] += pattern.springs  # each column begins with its diagonal
+    return values
 
 
 @dataclass(frozen=True)

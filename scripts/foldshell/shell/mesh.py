@@ -115,14 +115,24 @@ def edge_polyline_nodes(mesh: ShellMesh, vertex_pairs: np.ndarray) -> np.ndarray
 
     All are numbers.
     """
-    keys = np.sort(np.asarray(vertex_pairs), axis=1)
+    return np.unique(mesh.pair_nodes[find_facet_edges(mesh, vertex_pairs)])
+
+
+def find_facet_edges(mesh: ShellMesh, vertex_pairs: np.ndarray) -> np.ndarray:
+    """Return the rows (K,) of `node_pairs` and `pair_nodes` of facet edges given by vertices.
+
+    vertex_pairs (K, 2). Raises `ValueError` if a pair is no edge of a facet.
+
+    All are numbers.
+    """
+    keys = np.sort(np.asarray(vertex_pairs).reshape(-1, 2), axis=1)
     width = int(mesh.node_pairs.max()) + 1
     known = mesh.node_pairs[:, 0] * width + mesh.node_pairs[:, 1]
     wanted = keys[:, 0] * width + keys[:, 1]
     row = np.minimum(np.searchsorted(known, wanted), len(known) - 1)
     if not np.array_equal(known[row], wanted):
         raise ValueError(f"{keys[known[row] != wanted][0].tolist()} is no edge of a facet")
-    return np.unique(mesh.pair_nodes[row])
+    return row
 
 
 def _check_facets(vertices: np.ndarray, facets: np.ndarray) -> None:

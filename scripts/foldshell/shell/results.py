@@ -53,7 +53,8 @@ def support_reactions(
     """Return the reactions (S, 3, c) kN of the supported nodes, from element resultants.
 
     They are summed anew from stresses, not taken from the solver, so their balance with the
-    loads tests both.
+    loads tests both. What an elastic support exerts, -k u, is part of it; along directions in which
+    no support acts there is none.
     """
     resultants = stress_resultants(
         model.operators, result.displacement, thickness, material.youngs_modulus
@@ -65,8 +66,10 @@ def support_reactions(
             shape = shape + result.imperfection[:, None]
         push = apply_geometric(model.operators, resultants.force, shape)
         internal = internal + push
-    reaction = translations(model, internal - result.loads)
-    return reaction[model.supported_nodes]
+    reaction = translations(model, internal - result.loads)[model.supported_nodes]
+    if model.acting is None:
+        return reaction
+    return np.where(model.acting[:, :, None], reaction, 0.0)
 
 
 def reaction_imbalance(model: ShellModel, result: AnalysisResult, reactions: np.ndarray) -> float:
