@@ -6,7 +6,8 @@ alone. With --repair what is damaged is taken away, with all that its jobs and l
 that the next run of Snakemake makes it anew; copies stay under replaced/.
 
 An archive of a study (.zip) is checked whole: hashes, schema of every record, sums that must close;
-with --recompute DESIGN one design is computed anew from it, and compared digit by digit.
+with --recompute DESIGN one design is computed anew from it, and compared digit by digit. With
+--rerun FOLDER the whole study runs again there, edits by hand included; its summary is compared.
 """
 
 import argparse
@@ -14,7 +15,7 @@ import sys
 from collections.abc import Callable
 from pathlib import Path
 
-from foldshell.engine.verification import Said, verify_archive, verify_results
+from foldshell.engine.verification import Said, rerun_archive, verify_archive, verify_results
 from foldshell.files.errors import user_errors
 
 
@@ -36,8 +37,11 @@ if __name__ == "__main__":
     parser.add_argument("results", nargs="?", default="results")
     parser.add_argument("--repair", action="store_true")
     parser.add_argument("--recompute", action="append", default=[], metavar="DESIGN")
+    parser.add_argument("--rerun", metavar="FOLDER")
     task = globals().get("snakemake")
     given = parser.parse_args([task.params.results] if task else None)
+    if given.rerun:
+        run(lambda: rerun_archive(given.results, given.rerun))
     if given.results.endswith(".zip"):
         run(lambda: verify_archive(given.results, given.recompute))
     run(lambda: main(given.results, given.repair))

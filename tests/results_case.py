@@ -5,6 +5,7 @@ import numpy as np
 from foldshell.files.job_record import JobRecord, read_records, state_of, write_record
 from foldshell.files.manifest import make_manifest, write_manifest
 from foldshell.files.whole import hash_file, write_arrays, write_json
+from foldshell.records.edits import recorded_workbook
 from foldshell.workbook.panels import ThicknessTable, make_panel_grid
 from foldshell.workbook.styles import Line
 from foldshell.workbook.write_thickness import write_thickness
@@ -16,7 +17,9 @@ def write_book(home, number, thickness):
     path = home / f"sizing/{number:02d}/thickness.xlsx"
     path.parent.mkdir(parents=True, exist_ok=True)
     table = ThicknessTable(make_panel_grid(3, 4), np.full(6, thickness))
-    write_thickness(path, table, [Line("design", home.name), Line("iteration", number)], 0.01, 1.0)
+    about = [Line("design", home.name), Line("iteration", number)]
+    with recorded_workbook(path, path.with_name("written.json"), table.thickness) as temporary:
+        write_thickness(temporary, table, about, 0.01, 1.0)
     return path
 
 

@@ -14,6 +14,7 @@ import yaml
 from foldshell.archive.content import (
     CODE,
     CONFIG,
+    GIVEN,
     LEFT_OUT,
     RESULTS,
     RULE,
@@ -21,10 +22,12 @@ from foldshell.archive.content import (
     clean_text,
     export_code,
     find_private,
+    list_given,
     list_results,
     private_words,
 )
 from foldshell.archive.crate import CrateContent, make_metadata
+from foldshell.archive.edits import describe_edits
 from foldshell.archive.machine import describe_machine
 from foldshell.archive.seal import DIGITS, SEAL, hash_before_seal
 from foldshell.archive.words import describe_archive
@@ -65,6 +68,7 @@ def write_archive(
         bag.mkdir()
         commit, difference = _copy_code(study, bag, options)
         _copy_config(bag, config, tables)
+        _copy_given(study, bag, tables)
         _copy_results(study, bag, options)
         _write_json(bag / "machine.json", describe_machine())
         if difference:
@@ -91,6 +95,16 @@ def _copy_config(bag: Path, config: Json, tables: Sequence[Path]) -> None:
     (folder / "config.yaml").write_text(text, encoding="utf-8")
     for table in tables:
         shutil.copyfile(table, folder / Path(table).name)
+
+
+def _copy_given(study: Study, bag: Path, tables: Sequence[Path]) -> None:
+    """Copy the files that designs name, such as target surfaces, but those of the commit."""
+    for path in list_given(study, tables):
+        source, code = study.project / path, bag / CODE / path
+        if not (code.is_file() and code.read_bytes() == source.read_bytes()):
+            target = bag / GIVEN / path
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(source, target)
 
 
 def _copy_results(study: Study, bag: Path, options: Archive) -> None:
@@ -127,6 +141,10 @@ def _describe(study: Study, bag: Path, commit: str, date: str) -> Json:
     }
     home = study.home.relative_to(study.results).as_posix()
     names = [*study.designs, *([home] if (study.home / FOLDER).is_dir() else [])]
+    records = {
+        name: [record for record in read_records(study.results / name) if record.rule != RULE]
+        for name in names
+    }
     return make_metadata(
         CrateContent(
             title=f"Study {study.tag} of folded shell structures",
@@ -135,11 +153,9 @@ def _describe(study: Study, bag: Path, commit: str, date: str) -> Json:
             commit=commit,
             snakemake=version("snakemake"),
             files=files,
-            records={
-                name: [
-                    record for record in read_records(study.results / name) if record.rule != RULE
-                ]
-                for name in names
+            records=records,
+            edits={
+                name: describe_edits(study.results / name, found) for name, found in records.items()
             },
         )
     )

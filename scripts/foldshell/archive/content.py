@@ -11,13 +11,14 @@ from io import BytesIO
 from pathlib import Path
 
 from foldshell.files.errors import InputError
-from foldshell.files.job_record import FOLDER
+from foldshell.files.job_record import FOLDER, read_records
+from foldshell.files.whole import hash_file
 
 FIELDS = (".vtu", ".npz")
 """Endings of the large files of fields, which an archive may leave out."""
 NEEDED_FIELDS = ("folded.npz", "mesh.npz", "final.npz")
 """Fields that stay in any case: shape, mesh and final state of a design."""
-CODE, RESULTS, CONFIG = "code", "results", "config"
+CODE, RESULTS, CONFIG, GIVEN = "code", "results", "config", "given"
 RULE = "archive_study"
 """The rule that makes an archive: its record of an earlier one stays outside, as that one does."""
 LEFT_OUT = "left-out.txt"
@@ -48,6 +49,34 @@ def list_results(study: Study, fields: bool) -> Iterator[tuple[Path, str]]:
             if path.is_file() and _wanted(path, study, fields):
                 found[f"{RESULTS}/{path.relative_to(study.results).as_posix()}"] = path
     yield from ((found[place], place) for place in sorted(found))
+
+
+def list_given(study: Study, tables: Iterable[Path]) -> list[str]:
+    """Return the files from outside of the results that the jobs of the designs read, but for the
+    tables: target surfaces, crease patterns; as paths relative to the project.
+
+    Raises
+    ------
+    InputError
+        for one that is outside of the project, or was changed since a job read it.
+    """
+    known = {path.name for path in tables}
+    found: dict[str, str] = {}
+    for design in study.designs:
+        for record in read_records(study.results / design):
+            found |= record.external
+    for path, digest in found.items():
+        source = study.project / path
+        if Path(path).name in known:
+            continue
+        if not source.is_file():
+            raise InputError(
+                f"{path}: is not in {study.project.name}: an archive holds files of the project: "
+                "copy it there, name it by its place in it, and run the study again"
+            )
+        if hash_file(source) != digest:
+            raise InputError(f"{path}: has changed since it was read: run the study again first")
+    return sorted(path for path in found if Path(path).name not in known)
 
 
 def _wanted(path: Path, study: Study, fields: bool) -> bool:

@@ -12,7 +12,7 @@ from rocrate.model.contextentity import ContextEntity
 from rocrate.model.entity import Entity
 from rocrate.rocrate import ROCrate
 
-from foldshell.archive.edits import Edit, find_edits
+from foldshell.archive.edits import Edit
 from foldshell.files.job_record import JobRecord
 
 BASE = "https://w3id.org/ro/wfrun"
@@ -35,7 +35,7 @@ MEDIA = {
 @dataclass(frozen=True)
 class CrateContent:
     """What the metadata says: title, date (ISO), commit, version of Snakemake, places of all files
-    with size (bytes), records of jobs by the folder of their results."""
+    with size (bytes), records of jobs and edits by the folder of their results."""
 
     title: str
     description: str
@@ -44,6 +44,7 @@ class CrateContent:
     snakemake: str
     files: Mapping[str, int]
     records: Mapping[str, list[JobRecord]] = field(default_factory=dict)
+    edits: Mapping[str, list[Edit]] = field(default_factory=dict)
 
 
 def make_metadata(content: CrateContent) -> dict:
@@ -72,8 +73,8 @@ def make_metadata(content: CrateContent) -> dict:
     ]
     edits = [
         _add_edit(crate, home, edit, files)
-        for home, records in content.records.items()
-        for edit in find_edits(records)
+        for home, found in content.edits.items()
+        for edit in found
     ]
     run = _add_run(crate, content, workflow, files)
     _add_engine(crate, content, run, actions)
@@ -174,7 +175,7 @@ def _add_edit(crate: ROCrate, home: str, edit: Edit, files: Mapping[str, Entity]
     """Add what a person did to a workbook: from which bytes to which, and in which cells."""
     program = _add(crate, "#spreadsheet", "SoftwareApplication", name="a spreadsheet program")
     person = _add(crate, "#person", "Person", name="a person, not named")
-    place = f"results/{home}/{edit.path}"
+    place = f"results/{home}/{edit.file or edit.path}"
     action = _add(
         crate, f"#edit-{home}-{edit.path}", "UpdateAction",
         name=f"{home}: {edit.path} edited by hand, read by {edit.reader}",
@@ -186,6 +187,15 @@ def _add_edit(crate: ROCrate, home: str, edit: Edit, files: Mapping[str, Entity]
         name=f"{edit.path} as it was written", identifier=f"sha256:{edit.written_sha256}",
     )  # fmt: skip
     action["object"], action["result"] = [before], _known(files, [place])
+    if edit.cells:
+        action["additionalProperty"] = [
+            _add(
+                crate, f"#cell-{home}-{edit.path}-{cell.panel}", "PropertyValue",
+                name=cell.place, value=cell.after, unitText="m",
+                description=f"thickness of panel {cell.panel}, {cell.before!r} m before",
+            )
+            for cell in edit.cells
+        ]  # fmt: skip
     return action
 
 

@@ -2,14 +2,12 @@
 
 import hashlib
 import json
-import shutil
-import subprocess
-import sys
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from foldshell.archive.rerun import prepare_rerun
 from foldshell.files.errors import InputError
 
 TOLERANCE = 1e-9
@@ -42,16 +40,11 @@ def recompute(bag: Path, design: str, folder: Path, cores: int = 2) -> list[Diff
     data = bag / "data"
     if not (data / "results" / design / "manifest.json").is_file():
         raise InputError(f"{bag.name}: no design {design!r} in it")
-    shutil.copytree(data / "code", folder / "code")
-    shutil.copytree(data / "config", folder / "given")
-    table = next(path.name for path in (data / "config").glob("*.tsv"))
-    words = [sys.executable, "-m", "snakemake", "--cores", str(cores), "--configfile"]
-    words += ["../given/config.yaml", "--config", f"designs=../given/{table}", "--"]
-    words += [f"results/{design}/sizing/final.json"]
-    done = subprocess.run(words, cwd=folder / "code", capture_output=True, text=True)
-    if done.returncode:
-        last = (done.stderr.strip().splitlines() or ["it printed nothing"])[-1]
-        raise InputError(f"{design}: the workflow of the archive failed: {last}")
+    task = prepare_rerun(bag, folder)
+    try:
+        task.run_with_edits([design], [f"results/{design}/sizing/final.json"], cores)
+    except InputError as error:
+        raise InputError(f"{design}: {error}") from None
     return compare_design(data / "results" / design, folder / "code/results" / design)
 
 

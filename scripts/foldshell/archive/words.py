@@ -12,7 +12,8 @@ loop of analyses, the final state checked by a second finite-element code.
 | place | what it holds |
 |---|---|
 | `code/` | source of the workflow, commit {commit}, with the lock file of all packages |
-| `config/` | the settings of this run (`config.yaml`), the table of designs, files that they name |
+| `config/` | the settings of this run (`config.yaml`) and its tables |
+| `given/` | files that designs name, such as target surfaces, where the commit does not hold them |
 | `results/<design>/` | files of a design; `manifest.json` has their hashes, `jobs/` who made them |
 | `results/studies/{tag}/` | what is said over all designs |
 | `results/schemas/` | JSON Schemas of the result files, each key with unit and meaning |
@@ -32,10 +33,16 @@ that must close. With `--recompute DESIGN` one design is computed anew and compa
 
 ## Run it again
 
+`python code/scripts/verify.py ARCHIVE --rerun FOLDER` runs the whole study in a new folder, lays
+in the workbooks that a person had edited, and compares its summary with the archived one. By hand,
+in this folder, from nothing:
+
 ```
 cd code
+cp -r ../given/. . 2>/dev/null
 python3.11 -m venv .venv && .venv/bin/pip install --require-hashes -r envs/requirements.lock
-.venv/bin/snakemake --cores 2 --configfile ../config/config.yaml --config designs=../config/{table}
+.venv/bin/snakemake --cores 2 --configfile ../config/config.yaml \\
+  --config designs=../config/{table} results=results
 ```
 
 ## Files

@@ -49,6 +49,24 @@ def verify_archive(path: str | Path, recomputed: Iterable[str] = ()) -> Said:
     return lines or [f"{path}: every file is as it was archived, every sum closes"], code
 
 
+def rerun_archive(path: str | Path, folder: str | Path) -> Said:
+    """Run the study of an archive again in a new folder; return lines on what its summary differs
+    in, and the exit code."""
+    need_library("bagit", "archive")
+    from foldshell.archive.check import check_bag, unpack
+    from foldshell.archive.rerun import rerun_study
+
+    with tempfile.TemporaryDirectory() as scratch:
+        bag = unpack(path, scratch)
+        faults = [line.replace(f"{bag}/", "") for line in check_bag(bag)]
+        if faults:
+            return faults, 1
+        lines = rerun_study(bag, Path(folder))
+    return lines or [f"{folder}: summary.csv has the same bytes as the archived one"], int(
+        bool(lines)
+    )
+
+
 def _left_out(fault: Fault, results: Path, names: set[str]) -> bool:
     inside = fault.path.is_relative_to(results)
     return (

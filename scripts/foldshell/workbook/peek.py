@@ -12,12 +12,17 @@ _SUMMARY_ROWS = 60
 
 @dataclass(frozen=True)
 class Peek:
-    """Values of the column `thickness` by panel as they stand there, and whose workbook it is
-    (design and iteration of its summary; None where they are missing)."""
+    """Cells of the column `thickness` by panel as they stand there (None where one is empty), and
+    whose workbook it is (design and iteration of its summary; None where they are missing)."""
 
-    thickness: dict[Any, Any]
+    cells: dict[Any, Cell | None]
     design: Any
     iteration: Any
+
+    @property
+    def thickness(self) -> dict[Any, Any]:
+        """Values of these cells."""
+        return {panel: _value(cell) for panel, cell in self.cells.items()}
 
 
 def peek_thickness(path: str | Path) -> Peek:
@@ -39,7 +44,7 @@ def peek_thickness(path: str | Path) -> Peek:
     for row in sorted(rows):
         if header and row > header + 1:
             panel, value = (rows[row].get(places[name]) for name in ("panel", "thickness"))
-            found[_value(panel)] = _value(value)
+            found[_value(panel)] = value
     summary = _rows(package, sheets, "summary", _SUMMARY_ROWS)
     pairs = {
         str(_value(cells.get(1))).casefold(): _value(cells.get(2)) for cells in summary.values()

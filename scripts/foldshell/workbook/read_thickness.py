@@ -98,7 +98,7 @@ def _read_panel(
 ) -> int:
     if cell is None:
         raise InputError(f"{place}: row {row}: a thickness without a panel id: an id is due")
-    number = _to_number(cell)
+    number = to_number(cell)
     count = grid.panel.size
     if number is None or not 0 <= number < count or number != int(number):
         raise InputError(
@@ -119,7 +119,7 @@ def _check_indices(cells: dict[str, Cell | None], panel: int, grid: PanelGrid, p
     """Refuse a row whose indices belong to another panel: a column was moved or sorted alone."""
     for name, index in (("zigzag", grid.zigzag_index), ("strip", grid.strip_index)):
         cell, due = cells.get(name), int(index[panel])
-        if cell is not None and _to_number(cell) != due:
+        if cell is not None and to_number(cell) != due:
             raise InputError(
                 f"{place}: cell {cell.reference}: {_show(cell)}: {name} of panel {panel} is {due}"
             )
@@ -131,7 +131,7 @@ def _read_value(
     allowed = f"a number in m from {least:g} to {largest:g} is allowed"
     if cell is None:
         raise InputError(f"{place}: row {row}: the thickness of panel {panel} is empty: {allowed}")
-    number = _to_number(cell)
+    number = to_number(cell)
     if number is None or not least * (1 - 1e-12) <= number <= largest * (1 + 1e-12):
         raise InputError(
             f"{place}: cell {cell.reference}: {_show(cell)}: {allowed}"
@@ -140,7 +140,8 @@ def _read_value(
     return min(max(number, least), largest)
 
 
-def _to_number(cell: Cell) -> float | None:
+def to_number(cell: Cell) -> float | None:
+    """Return what a cell says as a number, also one that stands as text; None for anything else."""
     if cell.kind == "number":
         return float(cell.value)
     if cell.kind == "text" and _NUMBER.fullmatch(cell.value.strip()):

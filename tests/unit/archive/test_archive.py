@@ -5,6 +5,7 @@ import random
 import shutil
 import subprocess
 import zipfile
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -16,12 +17,13 @@ import verify  # noqa: E402
 from foldshell.archive.bag import write_archive  # noqa: E402
 from foldshell.archive.check import check_bag, check_sums, unpack  # noqa: E402
 from foldshell.archive.content import Study, clean_text  # noqa: E402
-from foldshell.archive.edits import find_edits  # noqa: E402
+from foldshell.archive.edits import describe_edits, find_edits  # noqa: E402
 from foldshell.archive.recompute import compare_design  # noqa: E402
+from foldshell.archive.rerun import compare_tables, prepare_rerun  # noqa: E402
 from foldshell.archive.seal import is_sealed  # noqa: E402
 from foldshell.files.errors import InputError  # noqa: E402
-from foldshell.files.job_record import read_records  # noqa: E402
-from foldshell.files.whole import write_arrays, write_json  # noqa: E402
+from foldshell.files.job_record import read_records, write_record  # noqa: E402
+from foldshell.files.whole import hash_data, hash_file, write_arrays, write_json  # noqa: E402
 from foldshell.settings.archive import Archive  # noqa: E402
 from foldshell.settings.config_file import read_config  # noqa: E402
 from results_case import make_results, record  # noqa: E402
@@ -165,9 +167,73 @@ def test_provenance_has_an_action_for_each_job_and_each_edit(study, tmp_path):
     assert {"@id": "results/a/sizing/01/analysis.json"} in action["result"]
     (update,) = (item for item in graph if item["@type"] == "UpdateAction")
     assert edit.written_sha256 in update["description"]
+    assert "thickness!D5 (panel 2): 0.2 -> 0.25 m" in update["description"]
+    (cell,) = (entities[item["@id"]] for item in update["additionalProperty"])
+    assert cell["name"] == "thickness!D5" and cell["value"] == 0.25
     jobs = [item for item in graph if item["@id"].startswith("#job-")]
     controls = [item for item in graph if item["@type"] == "ControlAction"]
     assert len(jobs) == len(controls) == 2 * 6 + 1
+
+
+def test_cells_of_an_edit_that_was_replaced_since_are_known_from_its_copy(study):
+    """The copy that is kept aside has the bytes that the analysis read."""
+    home, book = study.results / "a", study.results / "a/sizing/00/thickness.xlsx"
+    edit_with_openpyxl(book, lambda workbook: workbook["thickness"].__setitem__("D4", 0.5))
+    record(home, "analyse-00", "analyse", ["sizing/00/analysis.json"], ["sizing/00/thickness.xlsx"])
+    book.rename(book.with_name(f"edited-{hash_file(book)[:12]}.xlsx"))
+    book.write_bytes(b"another")
+    (edit,) = describe_edits(home, read_records(home))
+    assert [(cell.panel, cell.before, cell.after) for cell in edit.cells] == [(1, 0.2, 0.5)]
+    book.with_name(edit.file.rpartition("/")[2]).unlink()
+    (edit,) = describe_edits(home, read_records(home))
+    assert edit.cells is None and "not known" in edit.describe()
+
+
+def test_a_workbook_that_was_only_saved_anew_has_no_cells(study):
+    home, book = study.results / "a", study.results / "a/sizing/00/thickness.xlsx"
+    edit_with_openpyxl(book, lambda workbook: None)
+    record(home, "analyse-00", "analyse", ["sizing/00/analysis.json"], ["sizing/00/thickness.xlsx"])
+    (edit,) = describe_edits(home, read_records(home))
+    assert edit.cells == () and "no thickness changed" in edit.describe()
+
+
+def give(study, path, text="v 0 0 0\n"):
+    """Let the first job of design a have read a file from outside of the results."""
+    if not path.startswith("/"):
+        (study.project / path).parent.mkdir(exist_ok=True)
+        (study.project / path).write_text(text)
+    first = read_records(study.results / "a")[0]
+    digest = hash_data(text) if path.startswith("/") else hash_file(study.project / path)
+    write_record(study.results / "a", replace(first, external={path: digest}))
+
+
+def test_surface_files_are_in_the_archive_and_in_a_rerun(study, tmp_path):
+    give(study, "models/roof.obj")
+    bag = unpack(write(study, tmp_path / "t.zip"), tmp_path / "out")
+    assert (bag / "data/given/models/roof.obj").read_text() == "v 0 0 0\n"
+    task = prepare_rerun(bag, tmp_path / "again")
+    assert (task.code / "models/roof.obj").is_file() and task.table == "../config/designs.tsv"
+    with pytest.raises(InputError, match="not empty"):
+        prepare_rerun(bag, tmp_path / "again")
+
+
+def test_a_surface_file_that_has_changed_or_lies_elsewhere_is_refused(study, tmp_path):
+    give(study, "models/roof.obj")
+    (study.project / "models/roof.obj").write_text("v 1 0 0\n")
+    with pytest.raises(InputError, match=r"roof.obj: has changed since it was read"):
+        write(study, tmp_path / "t.zip")
+    give(study, "/elsewhere/roof.obj")
+    with pytest.raises(InputError, match=r"roof.obj: is not in project"):
+        write(study, tmp_path / "t.zip")
+
+
+def test_differences_of_tables_name_design_and_column(tmp_path):
+    for name, value in (("one", "1.0"), ("same", "1.0"), ("other", "2.0")):
+        (tmp_path / name).write_text(f"design,volume_m3\na,{value}\n")
+    assert list(compare_tables(tmp_path / "one", tmp_path / "same")) == []
+    (line,) = compare_tables(tmp_path / "one", tmp_path / "other")
+    assert line == "a: volume_m3: '1.0' became '2.0'"
+    assert list(compare_tables(tmp_path / "one", tmp_path / "none")) == ["was not made"]
 
 
 def test_sums_that_do_not_close_are_said(tmp_path):
