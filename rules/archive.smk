@@ -4,7 +4,7 @@
 rule archive_study:
     input:
         files=lambda wildcards: study_files(SETTINGS.study),
-        summary=[f"{STUDY}/summary.csv", f"{STUDY}/summary.xlsx"],
+        study=[f"{STUDY}/summary.csv", f"{STUDY}/report.html", f"{STUDY}/manifest.json"],
         library=code_inputs("archive"),
     output:
         pointer=f"{STUDY}/archive/archive.json",

@@ -31,8 +31,10 @@ def unpack(path: str | Path, folder: str | Path) -> Path:
     Raises
     ------
     InputError
-        for a file that is no archive of ours, or leads outside of the folder.
+        for no file, one that is no archive of ours, and one that leads outside of the folder.
     """
+    if not Path(path).is_file():
+        raise InputError(f"{path}: there is no such file: an archive of a study (.zip) is due")
     try:
         if not is_sealed(path):
             raise InputError(f"{path}: damaged: its bytes are not those that were sealed")
