@@ -3,9 +3,7 @@
 import json
 import random
 import shutil
-import subprocess
 import zipfile
-from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -14,49 +12,26 @@ bagit = pytest.importorskip("bagit", reason="envs/archive.lock is not installed"
 pytest.importorskip("rocrate", reason="envs/archive.lock is not installed")
 
 import verify  # noqa: E402
+from archive_case import DATE, give, make_study, with_an_edit, write  # noqa: E402
 from foldshell.archive.bag import write_archive  # noqa: E402
 from foldshell.archive.check import check_bag, check_sums, unpack  # noqa: E402
-from foldshell.archive.content import Study, clean_text  # noqa: E402
+from foldshell.archive.content import clean_text  # noqa: E402
 from foldshell.archive.edits import describe_edits, find_edits  # noqa: E402
 from foldshell.archive.recompute import compare_design  # noqa: E402
 from foldshell.archive.rerun import compare_tables, prepare_rerun  # noqa: E402
 from foldshell.archive.seal import is_sealed  # noqa: E402
 from foldshell.files.errors import InputError  # noqa: E402
-from foldshell.files.job_record import read_records, write_record  # noqa: E402
-from foldshell.files.whole import hash_data, hash_file, write_arrays, write_json  # noqa: E402
+from foldshell.files.job_record import read_records  # noqa: E402
+from foldshell.files.whole import hash_file, write_arrays, write_json  # noqa: E402
 from foldshell.settings.archive import Archive  # noqa: E402
 from foldshell.settings.config_file import read_config  # noqa: E402
-from results_case import make_results, record  # noqa: E402
+from results_case import record  # noqa: E402
 from workbook_cases import edit_with_openpyxl  # noqa: E402
-
-DATE = "2026-01-02"
-
-
-def git(folder, *words):
-    name = ["-c", "user.name=t", "-c", "user.email=t@t"]
-    subprocess.run(["git", "-C", str(folder), *name, *words], check=True, capture_output=True)
 
 
 @pytest.fixture
 def study(tmp_path):
-    """Two designs, in the checkout of a small project."""
-    project = tmp_path / "project"
-    (project / "scripts").mkdir(parents=True)
-    for name in ("Snakefile", "LICENSE", "CITATION.cff", "scripts/analyse.py", "scripts/size.py"):
-        (project / name).write_text(f"# {name}\n")
-    (project / "designs.tsv").write_text("design\na\nb\n")
-    (project / ".gitignore").write_text("results/\n")
-    git(project, "init", "-q")
-    git(project, "add", "-A")
-    git(project, "commit", "-qm", "first")
-    results = make_results(project / "results")
-    return Study("t", ("a", "b"), results, results / "studies/t", project)
-
-
-def write(study, path, **options):
-    tables = [study.project / "designs.tsv"]
-    write_archive(path, study, {"study": "t"}, tables, "ab" * 32, DATE, Archive(**options))
-    return path
+    return make_study(tmp_path)
 
 
 def test_an_archive_checks_out_on_its_own(study, tmp_path):
@@ -152,10 +127,8 @@ def test_logs_lose_paths_of_the_machine(study):
 
 
 def test_provenance_has_an_action_for_each_job_and_each_edit(study, tmp_path):
-    home, book = study.results / "a", study.results / "a/sizing/00/thickness.xlsx"
-    edit_with_openpyxl(book, lambda workbook: workbook["thickness"].__setitem__("D5", 0.25))
-    made = ["sizing/00/analysis.json", "sizing/00/analysis.npz"]
-    record(home, "analyse-00", "analyse", made, ["sizing/00/thickness.xlsx"])
+    home = study.results / "a"
+    with_an_edit(study)
     (edit,) = find_edits(read_records(home))
     assert edit.path == "sizing/00/thickness.xlsx" and edit.reader == "analyse-00"
     with zipfile.ZipFile(write(study, tmp_path / "t.zip")) as archive:
@@ -195,16 +168,6 @@ def test_a_workbook_that_was_only_saved_anew_has_no_cells(study):
     record(home, "analyse-00", "analyse", ["sizing/00/analysis.json"], ["sizing/00/thickness.xlsx"])
     (edit,) = describe_edits(home, read_records(home))
     assert edit.cells == () and "no thickness changed" in edit.describe()
-
-
-def give(study, path, text="v 0 0 0\n"):
-    """Let the first job of design a have read a file from outside of the results."""
-    if not path.startswith("/"):
-        (study.project / path).parent.mkdir(exist_ok=True)
-        (study.project / path).write_text(text)
-    first = read_records(study.results / "a")[0]
-    digest = hash_data(text) if path.startswith("/") else hash_file(study.project / path)
-    write_record(study.results / "a", replace(first, external={path: digest}))
 
 
 def test_surface_files_are_in_the_archive_and_in_a_rerun(study, tmp_path):
