@@ -9,6 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
+from foldshell.checks.strips import find_strips, utilization_of_strips
 from foldshell.checks.utilization import area_percentile, compute_utilization
 from foldshell.loads.cases import make_load_cases
 from foldshell.settings.analysis import Analysis
@@ -17,6 +18,7 @@ from foldshell.settings.material import Material
 from foldshell.shell.analysis import analyse_shell, build_model
 from foldshell.shell.mesh_files import mesh_folded_sheet, mesh_from_arrays
 from foldshell.shell.results import largest_downward
+from foldshell.shell.stress import stress_resultants
 
 DATA = Path(__file__).parents[1] / "data"
 CONCRETE = Material("C25/30", 31e6, 0.2, 25.0, 16_700.0, 1_670.0)
@@ -73,7 +75,14 @@ def analyse_case(case: FoldedCase, subdivisions: int, order: int | None = None) 
         Analysis(second_order=False),
     )
     used = compute_utilization(model, result.displacement, thickness, CONCRETE)
+    resultants = stress_resultants(
+        model.operators, result.displacement, thickness, CONCRETE.youngs_modulus
+    )
+    strips = find_strips(model.operators, 0.3)
     return {
+        "utilization_strip_max": float(
+            utilization_of_strips(strips, resultants, thickness, CONCRETE).max()
+        ),
         "displacement_mm": 1e3 * largest_downward(model, result.displacement, ["S2"])[0],
         "work_knm": float((result.displacement * result.loads).sum() / 2),
         "utilization_p99": area_percentile(model, used.point),

@@ -18,7 +18,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-from foldshell.shell.mesh import ShellMesh
+from foldshell.shell.mesh import ShellMesh, list_facets
 
 THICKEST = 1 / 10
 THINNEST = 1 / 80
@@ -109,7 +109,7 @@ def list_idle_supports(state: ModelState) -> list[str]:
 
 def measure_widths(mesh: ShellMesh) -> np.ndarray:
     """w = min over facets of 2 A / longest side: width (P,) [m] of each panel."""
-    facets, panel = _list_facets(mesh)
+    facets, panel = list_facets(mesh)
     corner = mesh.nodes[facets]
     area = np.linalg.norm(
         np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0]), axis=1
@@ -126,7 +126,7 @@ def measure_form_radii(mesh: ShellMesh, panels: int) -> np.ndarray:
     The form runs through the panels' middles, since zig-zags rise and fall about them: a quadric
     is fitted to those of a panel and its nearest neighbours, in the frame of their own plane.
     """
-    facets, panel = _list_facets(mesh)
+    facets, panel = list_facets(mesh)
     count = np.bincount(panel, minlength=panels)[:panels]
     own = panel < panels
     middle = np.zeros((panels, 3))
@@ -183,12 +183,3 @@ def find_support_runs(mesh: ShellMesh, supported: np.ndarray) -> np.ndarray:
         np.minimum.at(lowest, elements[held[elements]], least[held[elements]])
         if (lowest == before).all():
             return np.unique(lowest[supported], return_inverse=True)[1]
-
-
-def _list_facets(mesh: ShellMesh) -> tuple[np.ndarray, np.ndarray]:
-    """Facets (F, 3) as nodes, and the panel of each (F,)."""
-    vertices = int(mesh.node_pairs.max()) + 1  # the first nodes of a mesh are its vertices
-    element, corner = np.nonzero(mesh.corners < vertices)
-    order = np.argsort(mesh.facet[element], kind="stable")
-    facets = mesh.corners[element, corner][order].reshape(-1, 3)
-    return facets, mesh.panel[element[order]].reshape(-1, 3)[:, 0]

@@ -135,6 +135,18 @@ def find_facet_edges(mesh: ShellMesh, vertex_pairs: np.ndarray) -> np.ndarray:
     return row
 
 
+def list_facets(mesh: ShellMesh) -> tuple[np.ndarray, np.ndarray]:
+    """Return the facets (F, 3) as vertex numbers, in no certain sense, and the panel (F,) of each.
+
+    The first nodes of a mesh are its vertices: the elements in a facet's corners know them.
+    """
+    vertices = int(mesh.node_pairs.max()) + 1
+    element, corner = np.nonzero(mesh.corners < vertices)
+    order = np.argsort(mesh.facet[element], kind="stable")
+    facets = mesh.corners[element, corner][order].reshape(-1, 3)
+    return facets, mesh.panel[element[order]].reshape(-1, 3)[:, 0]
+
+
 def _check_facets(vertices: np.ndarray, facets: np.ndarray) -> None:
     """Refuse facets without area."""
     corner = vertices[facets]
