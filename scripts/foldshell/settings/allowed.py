@@ -15,7 +15,7 @@ _NUMBERS = {float: "a number", int: "a whole number"}
 def describe_allowed(known: Setting) -> str:
     """Say in words what a setting allows, with its unit."""
     if known.kind == Factors:
-        return f"names with factors of {', '.join(known.choices)}"
+        return f"names with factors of {', '.join(known.choices)} or of cases of the load table"
     if known.kind == tuple[str, ...] and not known.choices:
         return "a name or a list of names"
     if known.kind == tuple[str, ...]:

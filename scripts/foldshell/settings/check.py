@@ -20,12 +20,14 @@ COMBINATION_NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,15}")
 class Reader:
     """Where values stand: `source` begins each sentence, `yaml` is False for tables.
 
-    `notes` gathers what is to be said once, such as a place with an old word, and the new one.
+    `notes` gathers what is to be said once, such as a place with an old word, and the new one;
+    `cases` are load cases of the table of loads, which combinations may name beside the paper's.
     """
 
     source: str
     yaml: bool = True
     notes: list[str] = field(default_factory=list)
+    cases: tuple[str, ...] = ()
 
     def read_group(self, kind: type, data: object, place: str = "") -> Any:
         """Return the group of class `kind` from nested plain values, defaults where left out.
@@ -129,18 +131,19 @@ class Reader:
             raise self.refuse(place, factors, "a group of keys with values")
         if not factors:
             raise InputError(f"{self.source}: {place}: 0 entries: at least 1 are needed")
+        cases = tuple(dict.fromkeys((*known.choices, *self.cases)))
         for case in factors:
-            if case not in known.choices:
-                near = find_nearest(str(case).upper(), known.choices)
+            if case not in cases:
+                near = find_nearest(str(case).upper(), cases)
                 hint = f"the nearest is {place}.{near}" if near else ""
                 raise InputError(
                     f"{self.source}: {join_place(place, case)}: unknown key, "
-                    f"{hint or 'allowed are ' + ', '.join(known.choices)}"
+                    f"{hint or 'allowed are ' + ', '.join(cases)}"
                 )
         item = replace(known, kind=float, choices=())
         return {
             case: float(self.read_value(item, factors[case], join_place(place, case)))
-            for case in known.choices
+            for case in cases
             if case in factors
         }
 

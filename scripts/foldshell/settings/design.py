@@ -4,6 +4,7 @@ import dataclasses
 from dataclasses import dataclass
 
 from foldshell.settings.field import Group, list_settings, setting, settings_group
+from foldshell.settings.load_table import PAPER
 
 Row = dict[str, str | int | float]
 """One design by the columns of designs.tsv, as Snakemake's `params` and files hold it."""
@@ -49,6 +50,11 @@ class DesignColumns(Group):
         "all", choices=SUPPORTS,
         meaning="Pinned borders, namely all four, the two zig-zag edges, or the two strip edges.",
     )  # fmt: skip
+    loads: str = setting(
+        PAPER,
+        meaning="Set of loads, `paper` with the values of the group `loads`, or one of the load "
+        "table.",
+    )
     fold_mode: str = setting(
         "elastic", choices=FOLD_MODES,
         former={"paper": "elastic"},

@@ -42,6 +42,7 @@ class Setting:
     `ranges` are several ranges beside 0, which stands for none; `choices` the words allowed (or,
     for factors, the load cases), `former` old words with the new one; `longest` is the number of
     characters of a text; `stages` are those that get it, by default each one that takes its group.
+    What is `internal` stands in no file, it is filled in, and is not compared.
     """
 
     default: Any
@@ -56,6 +57,7 @@ class Setting:
     former: Mapping[str, str] = dataclasses.field(default_factory=dict)
     longest: int | None = None
     stages: tuple[str, ...] | None = None
+    internal: bool = False
     name: str = ""
     kind: Any = None
 
@@ -89,7 +91,7 @@ class Group:
 
     def __getattr__(self, name: str) -> Any:
         """Fail for a field that this stage was not given."""
-        if name in list_settings(type(self)) or name in list_groups(type(self)):
+        if name in list_fields(type(self)) or name in list_groups(type(self)):
             raise AttributeError(
                 f"{type(self).__name__}.{name} was not given to this stage: `stages` of that "
                 "setting, or STAGES in settings/stages.py, must name it"
@@ -118,7 +120,9 @@ def settings_group(kind: type) -> type:
         if isinstance(known, Setting):
             known = dataclasses.replace(known, name=name, kind=annotation)
             make = functools.partial(known.convert, known.default)
-            field = dataclasses.field(default_factory=make, metadata={"setting": known})
+            field = dataclasses.field(
+                default_factory=make, metadata={"setting": known}, compare=not known.internal
+            )
         else:
             field = dataclasses.field(default_factory=annotation, metadata={"group": annotation})
         setattr(kind, name, field)
@@ -128,6 +132,12 @@ def settings_group(kind: type) -> type:
 @functools.cache
 def list_settings(kind: type) -> dict[str, Setting]:
     """Return the settings of a group by the names of their fields; nested groups are left out."""
+    return {name: known for name, known in list_fields(kind).items() if not known.internal}
+
+
+@functools.cache
+def list_fields(kind: type) -> dict[str, Setting]:
+    """Return the same with those that are internal."""
     found = dataclasses.fields(kind)
     return {field.name: field.metadata["setting"] for field in found if "setting" in field.metadata}
 

@@ -13,8 +13,9 @@ from foldshell.settings.check import Reader, parse_group
 from foldshell.settings.config_file import read_config
 from foldshell.settings.design import SURFACES, Design
 from foldshell.settings.designs import check_defaults, read_designs
+from foldshell.settings.load_sets import check_loads, find_load_sets, list_cases, note_idle_loads
 from foldshell.settings.make import make_settings
-from foldshell.settings.study import Settings
+from foldshell.settings.study import LOAD_TABLE, Settings
 
 
 def _print_note(text: str) -> None:
@@ -35,9 +36,10 @@ def load_study(
     `InputError`.
     """
     source, notes = "configuration", []
+    cases = list_cases(find_load_sets(config.get("load_table", LOAD_TABLE)))
     for file in files:
         found: list[str] = []
-        Reader(str(file), notes=found).read_group(Settings, read_config(file))
+        Reader(str(file), notes=found, cases=cases).read_group(Settings, read_config(file))
         notes += [f"{file}: {note}" for note in found]
         source = f"{file} with --config"
     found = []
@@ -45,6 +47,8 @@ def load_study(
     notes += [f"{source}: {note}" for note in found] if not notes else []
     check_defaults(settings, source)
     designs = read_designs(settings.designs, settings, notes)
+    check_loads(designs, settings, str(settings.designs), source)
+    notes += note_idle_loads(settings, designs, source)
     designs = measure_surface_files(designs, str(settings.designs), notes)
     for note in dict.fromkeys(notes):
         say(note)

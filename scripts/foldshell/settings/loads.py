@@ -1,5 +1,6 @@
-"""Loads of the paper's Table 2 and their combinations; kN/m2."""
+"""Loads of the paper's Table 2, those of a design's own set, and combinations; kN/m2."""
 
+from foldshell.settings.codes import RULES
 from foldshell.settings.field import Factors, Group, setting, settings_group
 
 LOAD_CASES = ("SW", "SDL", "LL", "WX", "WY")
@@ -8,11 +9,17 @@ LOAD_CASES = ("SW", "SDL", "LL", "WX", "WY")
 
 @settings_group
 class Loads(Group):
-    """Loads of Table 2 of the paper, per square metre."""
+    """Loads of Table 2 of the paper, per square metre: the set `paper` of the column `loads`."""
 
     superimposed_dead: float = setting(
-        0.5, unit="kN/m2", minimum=0, maximum=1000, meaning="SDL, normal to each facet, downward."
-    )
+        0.5, unit="kN/m2", minimum=0, maximum=1000,
+        meaning="SDL, on the sheet, in the direction that `sdl_direction` says.",
+    )  # fmt: skip
+    sdl_direction: str = setting(
+        "normal", choices=("normal", "vertical"),
+        meaning="SDL against the normal of each facet, as in the paper, which on facets that "
+        "overhang pushes up, or straight down.",
+    )  # fmt: skip
     live: float = setting(1.0, unit="kN/m2", minimum=0, maximum=1000, meaning="LL, along -z.")
     wind: float = setting(
         1.7, unit="kN/m2", minimum=0, maximum=1000, meaning="WX and WY, along x and y."
@@ -30,12 +37,22 @@ class Loads(Group):
         meaning="Add the strength combinations S6 and S7, 0.9 (SW + SDL) + 1.0 WX or WY, of "
         "ASCE 7.",
     )  # fmt: skip
+    rows: tuple[str, ...] = setting(
+        (), internal=True,
+        meaning="Loads of a design with a set of its own, a text each; without them the rest.",
+    )  # fmt: skip
 
 
 @settings_group
 class Combinations(Group):
-    """Factors of the load cases SW, SDL, LL, WX, WY in each combination."""
+    """Factors of the load cases (SW, SDL, LL, WX, WY of the set `paper`) in each combination."""
 
+    rule: str = setting(
+        "listed", choices=("listed", *RULES), stages=(),
+        meaning="The combinations listed here, or those that a rule makes of the cases of each "
+        "design's set: factors of the paper, ASCE 7, or EN 1990 with the factors of `codes`; each "
+        "with wind both ways.",
+    )  # fmt: skip
     strength: Factors = setting(
         {
             "S1": {"SW": 1.4, "SDL": 1.4},

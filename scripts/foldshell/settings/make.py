@@ -8,9 +8,10 @@ from foldshell.files.errors import InputError
 from foldshell.settings.check import Reader
 from foldshell.settings.config_file import read_config
 from foldshell.settings.consistency import check_combinations, check_crosscheck, check_sizing
+from foldshell.settings.load_sets import find_load_sets, list_cases
 from foldshell.settings.loads import UPLIFT, Combinations
 from foldshell.settings.material import age_material
-from foldshell.settings.study import Settings
+from foldshell.settings.study import LOAD_TABLE, Settings
 
 
 def read_settings(path: str | Path) -> Settings:
@@ -26,8 +27,9 @@ def make_settings(
     `config` is what a file holds or what Snakemake merged from files and `--config`; `source`
     stands in messages, `notes` gathers what is to be said once (old words). Raises `InputError`.
     """
-    reader = Reader(source) if notes is None else Reader(source, notes=notes)
-    settings = reader.read_group(Settings, config)
+    sets = find_load_sets(config.get("load_table", LOAD_TABLE))
+    reader = Reader(source, notes=[] if notes is None else notes, cases=list_cases(sets))
+    settings = replace(reader.read_group(Settings, config), load_sets=sets)
     combinations = _add_uplift(settings, source) if settings.loads.uplift else settings.combinations
     check_combinations(combinations, settings.loads, source)
     check_sizing(settings.sizing, source)

@@ -5,6 +5,7 @@ from foldshell.settings.check import COMBINATION_NAME, COMBINATIONS_MAX
 from foldshell.settings.design import DesignColumns
 from foldshell.settings.designs import NAME, NAME_ALLOWED, TAGS, TAGS_ALLOWED
 from foldshell.settings.field import Factors, Plain, Setting, list_groups, list_settings
+from foldshell.settings.load_table import CASE_NAME
 from foldshell.settings.study import Settings
 
 _DIALECT = {"$schema": "https://json-schema.org/draft/2020-12/schema"}
@@ -99,7 +100,8 @@ def _describe_factors(known: Setting) -> Plain:
         "additionalProperties": {
             "type": "object",
             "minProperties": 1,
-            "additionalProperties": False,
+            "propertyNames": {"pattern": f"^{CASE_NAME.pattern}$"},
+            "additionalProperties": number,
             "properties": {case: number for case in known.choices},
         },
     }

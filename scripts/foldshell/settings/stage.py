@@ -4,7 +4,7 @@ import typing
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from foldshell.settings.field import Group, Plain, list_groups, list_settings, restore
+from foldshell.settings.field import Group, Plain, list_fields, list_groups, restore
 
 
 class StageSettings:
@@ -50,7 +50,7 @@ def to_plain(values: Group, stage: str | None = None) -> Plain:
 
 
 def _iterate_plain(values: Group, stage: str | None) -> Iterator[tuple[str, Any]]:
-    settings, groups = list_settings(type(values)), list_groups(type(values))
+    settings, groups = list_fields(type(values)), list_groups(type(values))
     for name, value in vars(values).items():
         if name in groups:
             yield name, to_plain(value, stage)
@@ -71,7 +71,7 @@ def read_stage(plain: Plain, *kinds: type) -> StageSettings:
 
 
 def _restore(kind: type, plain: Plain) -> Any:
-    groups, settings = list_groups(kind), list_settings(kind)
+    groups, settings = list_groups(kind), list_fields(kind)
     return restore(
         kind,
         {

@@ -4,11 +4,14 @@ from foldshell.files.whole import DIGITS, hash_data, hash_file
 from foldshell.settings.analysed import ANALYSED, LOADED
 from foldshell.settings.analysis import Analysis
 from foldshell.settings.archive import Archive
+from foldshell.settings.codes import Codes
 from foldshell.settings.crosscheck import Crosscheck
 from foldshell.settings.design import SURFACES, Design
 from foldshell.settings.exports import Drawings, Exports
 from foldshell.settings.field import Plain, list_groups
 from foldshell.settings.fold import Fold, Pattern
+from foldshell.settings.load_sets import combinations_of, place_set
+from foldshell.settings.load_table import PAPER
 from foldshell.settings.sizing import Sizing
 from foldshell.settings.stage import to_plain
 from foldshell.settings.study import Figures, Settings
@@ -26,12 +29,16 @@ STAGES: dict[str, tuple[type, ...]] = {
     "drawings": (Drawings,),
     "exports": (Exports,),
     "archive": (Archive,),
+    "checks": (*LOADED, Codes, Analysis, Sizing),
     "study": (Pattern, Fold, *ANALYSED, Crosscheck),
 }
 """Groups that each stage takes; a setting with `stages` of its own goes to those alone."""
 
 DECIDING = ("pattern", "fold", "mesh", "start", "analyse", "resize")
 """Stages whose settings decide the final state of a design."""
+
+NOT_DECIDING = ("design", "tags", "loads")
+"""Columns that decide nothing: the name of a set does not, its loads are among the settings."""
 
 FINAL_STATE = ("shell/mesh.npz", "folded/folded.npz", "sizing/final.npz", "sizing/final.json")
 """The files in a design's folder that hold its final state, as figures over all designs read it."""
@@ -42,12 +49,17 @@ def stage_parameters(settings: Settings, stage: str, design: Design | None = Non
 
     As Snakemake `params` they make a rule run again only when a setting that it needs has
     changed; `read_stage` makes typed settings of them. A design with the tag `demo` gets the
-    demo's subdivisions.
+    demo's subdivisions, one with loads of its own gets those, and each its combinations.
     """
-    chosen = {}
+    chosen: Plain = {}
     for name, kind in list_groups(Settings).items():
         if kind in STAGES[stage]:
             chosen[name] = to_plain(getattr(settings, name), stage)
+    if design is not None and "combinations" in chosen:
+        chosen["combinations"] = to_plain(combinations_of(settings, design), stage)
+    if design is not None and "loads" in chosen and design.loads != PAPER:
+        rows = place_set(settings.load_sets, design)
+        chosen["loads"] = {"rows": [row.to_text() for row in rows]}
     if design is not None and "subdivisions" in chosen.get("analysis", {}):
         chosen["analysis"]["subdivisions"] = choose_subdivisions(settings, design)
     return chosen
@@ -66,7 +78,7 @@ def hash_decisions(settings: Settings, design: Design) -> str:
     settings of `DECIDING`. A thickness that a person edits is added by `hash_edit` where it is
     analysed. Other settings (cross-check, classes, pictures, jobs) change no final state.
     """
-    row = {key: value for key, value in design.to_row().items() if key not in ("design", "tags")}
+    row = {key: value for key, value in design.to_row().items() if key not in NOT_DECIDING}
     if design.surface not in SURFACES:
         row["surface"] = hash_file(design.surface)
     groups = {stage: stage_parameters(settings, stage, design) for stage in DECIDING}

@@ -2,11 +2,13 @@
 
 from foldshell.settings.analysis import Analysis
 from foldshell.settings.archive import Archive
+from foldshell.settings.codes import Codes
 from foldshell.settings.crosscheck import Crosscheck
 from foldshell.settings.design import DesignColumns
 from foldshell.settings.exports import Drawings, Exports
 from foldshell.settings.field import Group, setting, settings_group
 from foldshell.settings.fold import Fold, Pattern
+from foldshell.settings.load_table import LoadSets
 from foldshell.settings.loads import Combinations, Loads
 from foldshell.settings.material import Material
 from foldshell.settings.sizing import Sizing
@@ -46,6 +48,8 @@ class Figures(Group):
 
 AUTO = "auto"
 
+LOAD_TABLE = "config/loads.tsv"
+
 
 @settings_group
 class Settings(Group):
@@ -60,6 +64,12 @@ class Settings(Group):
         meaning="Folder of the results. `auto` is `results`, and `results/<name>` for a table that "
         "is not called designs.tsv; `--config results=FOLDER` takes another one.",
     )
+    load_table: str = setting(
+        LOAD_TABLE,
+        meaning="Table of the sets of loads that designs name in the column `loads`; "
+        "docs/loads.md says more.",
+    )
+    load_sets: LoadSets = setting({}, internal=True, meaning="The sets that the table holds.")
     study: str = setting(
         "table1",
         meaning="Tag of the designs that the default target runs; what is said over all of them "
@@ -77,6 +87,7 @@ class Settings(Group):
     material: Material
     loads: Loads
     combinations: Combinations
+    codes: Codes
     analysis: Analysis
     sizing: Sizing
     crosscheck: Crosscheck

@@ -74,7 +74,11 @@ def make_design_report(
         utilization=iterations.utilization,
         thickness_class=grouped_arrays.panel_class,
         history=iterations.history,
-        loads=[_describe_load(name, value) for name, value in vars(settings.loads).items()],
+        loads=[
+            _describe_load(name, value)
+            for name, value in vars(settings.loads).items()
+            if name != "rows"
+        ],
         combinations=settings.combinations,
         settings=settings,
         versions=versions,

@@ -344,7 +344,7 @@ def test_hash_follows_all_that_decides_a_design_and_nothing_else(tmp_path):
         ("sizing.start_thickness_mm", 100, {"start", "size", "study"}),
         ("sizing.iterations_max", 20, {"analyse", "size", "study"}),
         ("sizing.classes", 5, {"size", "study"}),
-        ("loads.live_kn_m2", 2, {"analyse", "size", "crosscheck", "study"}),
+        ("loads.live_kn_m2", 2, {"analyse", "size", "crosscheck", "checks", "study"}),
         ("crosscheck.tolerance.work", 0.1, {"crosscheck", "study"}),
         ("figures.width_px", 800, {"figures"}),
         ("designs", "other.tsv", set()),
