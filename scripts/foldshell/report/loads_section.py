@@ -3,22 +3,14 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from foldshell.loads.cases import DOWN, GLOBAL_X, GLOBAL_Y, WEIGHT, SurfaceLoad, make_load_cases
+from foldshell.loads.cases import WEIGHT, SurfaceLoad, group_cases, make_load_cases
+from foldshell.loads.words import DIRECTIONS, describe_direction, describe_load, unit_of
 from foldshell.records.entry import SIGNS
 from foldshell.report.markup import Table, format_number, make_table
 from foldshell.settings.field import list_settings
 from foldshell.settings.loads import Combinations
 from foldshell.settings.material import Material
 from foldshell.settings.stage import StageSettings
-
-DIRECTIONS = {
-    None: ("against the normal of each facet", "normal"),
-    DOWN: ("down", "down"),
-    GLOBAL_X: ("along x", "x"),
-    GLOBAL_Y: ("along y", "y"),
-}
-"""Directions of load cases in words, and how their arrows point in a sketch."""
-
 
 WORDS = {"youngs_modulus": "Young's modulus", "poissons_ratio": "Poisson's ratio"}
 
@@ -47,23 +39,27 @@ def describe_loads(settings: StageSettings) -> LoadsText:
     """Return load cases, combinations and material of the settings of stage `size`."""
     cases = make_load_cases(settings.loads, settings.material.unit_weight)
     return LoadsText(
-        tuple(_describe_case(case) for case in cases),
-        _list_combinations(settings.combinations, cases),
+        tuple(_describe_case(own) for own in group_cases(cases).values()),
+        _list_combinations(settings.combinations, list(group_cases(cases))),
         _list_material(settings.material),
     )
 
 
-def _describe_case(case: SurfaceLoad) -> LoadCase:
-    words, arrows = DIRECTIONS.get(case.direction, (f"along {case.direction}", "down"))
-    basis = "of sheet" if case.area == "sheet" else "of plan"
-    size = f"{case.value:g} kN/m² {basis}"
-    if case.kind == WEIGHT:
-        size = f"{case.value:g} kN/m³ x thickness"
-    return LoadCase(case.case, f"{case.words} {words}", size, arrows)
+def _describe_case(loads: Sequence[SurfaceLoad]) -> LoadCase:
+    """Return a case of one load in the words of the paper, of others load by load."""
+    one = loads[0]
+    arrows = DIRECTIONS.get(one.direction, ("", "down"))[1]
+    if len(loads) > 1 or not one.is_uniform:
+        words = "; ".join(describe_load(own).partition(": ")[2] for own in loads)
+        sizes = "; ".join(f"{own.value:g} {SIGNS.get(unit_of(own), unit_of(own))}" for own in loads)
+        return LoadCase(one.case, words, sizes, arrows)
+    size = f"{one.value:g} kN/m² {'of sheet' if one.area == 'sheet' else 'of plan'}"
+    if one.kind == WEIGHT:
+        size = f"{one.value:g} kN/m³ x thickness"
+    return LoadCase(one.case, f"{one.words} {describe_direction(one)}", size, arrows)
 
 
-def _list_combinations(combinations: Combinations, cases: Sequence[SurfaceLoad]) -> Table:
-    names = [case.case for case in cases]
+def _list_combinations(combinations: Combinations, names: Sequence[str]) -> Table:
     rows = [
         (name, kind, *(factors.get(case) for case in names))
         for kind in ("strength", "deflection")

@@ -27,7 +27,7 @@ from foldshell.workbook.tables import Column, write_table
 class DesignReport:
     """What `design.xlsx` shows, as plain values.
 
-    `combinations` have factors of load cases by name; `settings`, `versions` and `sources` fill
+    `combinations` have factors of load cases by name, those of `cases`; `settings`, `versions` and `sources` fill
     the sheet of notes. thickness in m, utilization by `measure`, (P,) each.
     """
 
@@ -40,6 +40,7 @@ class DesignReport:
     history: Sequence[HistoryRow]
     thickness_class: IntArray | None = None
     loads: Sequence[Line] = ()
+    cases: Sequence[str] = LOAD_CASES
     combinations: Combinations = field(default_factory=Combinations)
     settings: StageSettings = field(default_factory=StageSettings)
     versions: Mapping[str, str] = field(default_factory=dict)
@@ -112,15 +113,15 @@ def _add_loads(book: Any, styles: Styles, report: DesignReport) -> None:
     row = write_lines(sheet, styles, 2, report.loads) + 1
     sheet.write_string(row, 0, "Combinations: factors of the load cases", styles["title"])
     row += 2
-    for column, name in enumerate(("combination", "for", *LOAD_CASES)):
+    for column, name in enumerate(("combination", "for", *report.cases)):
         style = "header" if column < 2 else "header_number"
         sheet.write_string(row, column, name, styles[style])
-    for purpose, group in vars(report.combinations).items():
-        for name, factors in group.items():
+    for purpose in ("strength", "deflection"):
+        for name, factors in getattr(report.combinations, purpose).items():
             row += 1
             sheet.write_string(row, 0, name, styles["text"])
             sheet.write_string(row, 1, purpose, styles["text"])
-            for column, case in enumerate(LOAD_CASES, start=2):
+            for column, case in enumerate(report.cases, start=2):
                 if factors.get(case):
                     sheet.write_number(row, column, factors[case], styles["general"])
 

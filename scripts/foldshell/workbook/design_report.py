@@ -4,6 +4,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from typing import Any
 
+from foldshell.loads.cases import list_cases, make_load_cases
+from foldshell.loads.words import describe_load, unit_of
 from foldshell.records.analysis import AnalysisRecord
 from foldshell.records.analysis_arrays import ClassesArrays
 from foldshell.records.classes import ClassesRecord
@@ -74,11 +76,8 @@ def make_design_report(
         utilization=iterations.utilization,
         thickness_class=grouped_arrays.panel_class,
         history=iterations.history,
-        loads=[
-            _describe_load(name, value)
-            for name, value in vars(settings.loads).items()
-            if name != "rows"
-        ],
+        loads=_list_loads(settings),
+        cases=list_cases(make_load_cases(settings.loads, settings.material.unit_weight)),
         combinations=settings.combinations,
         settings=settings,
         versions=versions,
@@ -93,6 +92,15 @@ def _describe_design(design: Design) -> list[Line]:
     beam = ("edge_beam_depth_m", "edge_beam_thickness_m")
     keys = [key for key in entries(DesignRow) if key not in beam or getattr(row, key)]
     return make_lines(row, keys)
+
+
+def _list_loads(settings: StageSettings) -> list[Line]:
+    """Return the values of Table 2, or the loads of a design's own set, one a line."""
+    loads = settings.loads
+    if not loads.rows:
+        return [_describe_load(name, value) for name, value in vars(loads).items() if value != ()]
+    cases = make_load_cases(loads, settings.material.unit_weight)
+    return [Line(describe_load(one), one.value, unit_of(one)) for one in cases]
 
 
 def _describe_load(name: str, value: Any) -> Line:
