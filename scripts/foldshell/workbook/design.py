@@ -27,8 +27,8 @@ from foldshell.workbook.tables import Column, write_table
 class DesignReport:
     """What `design.xlsx` shows, as plain values.
 
-    `combinations` have factors of load cases by name, those of `cases`; `settings`, `versions` and `sources` fill
-    the sheet of notes. thickness in m, utilization by `measure`, (P,) each.
+    `combinations` have factors of load cases by name, those of `cases`; `settings`, `versions` and
+    `sources` fill the sheet of notes. thickness in m, utilization by `measure`, (P,) each.
     """
 
     title: str
