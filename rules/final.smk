@@ -28,6 +28,7 @@ rule group:
 
 rule size:
     input:
+        mesh=rules.mesh.output.mesh,
         analyses=iterations,
         analysis_arrays=arrays_of(iterations),
         classes=[CLASSES["json"], CLASSES["arrays"]],

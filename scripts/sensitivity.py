@@ -25,7 +25,7 @@ def main(
     layout: tuple[int, int, str],
     settings: Plain,
 ) -> None:
-    """Write what claims compare of the last state.
+    """Write what claims compare of the state that is delivered.
 
     `layout` are zigzag, strip and support of the design, `settings` the plain parameters of the
     stage `size` before the variant changes them.
@@ -36,7 +36,7 @@ def main(
     measures = measure_state(
         read_checked_arrays(mesh_path, MeshArrays),
         Layout(*layout),
-        result.analyses[-1],
+        result.final,
         result.arrays,
         changed.combinations,
         changed.sizing.measure,

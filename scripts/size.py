@@ -1,6 +1,7 @@
 """Rule size: gather the iterations of a design into its history and its final state."""
 
 from collections.abc import Sequence
+from functools import partial
 from pathlib import Path
 
 from foldshell.engine.environment import list_versions
@@ -12,6 +13,7 @@ from foldshell.results.gather import gather_iterations, remove_superseded, write
 from foldshell.settings.analysed import ANALYSED
 from foldshell.settings.design import Design, Row
 from foldshell.settings.stage import Plain, read_stage
+from foldshell.sizing.case import open_case
 from foldshell.workbook.design import write_design
 from foldshell.workbook.design_report import make_design_report
 from foldshell.workbook.history import write_history
@@ -20,6 +22,7 @@ PACKAGES = ("numpy", "scipy", "cvxopt", "snakemake", "openpyxl", "XlsxWriter")
 
 
 def main(
+    mesh_path: str | Path,
     json_paths: Sequence[str | Path],
     classes_paths: Sequence[str | Path],
     csv_path: str | Path,
@@ -30,12 +33,13 @@ def main(
     design: Row,
     settings: Plain,
 ) -> None:
-    """Write histories, design.xlsx, panels of all iterations and copies of the last analysis. What
-    is left behind it is removed; edited workbooks of that are kept under sizing/superseded.
+    """Write histories, design.xlsx, panels of all iterations and the analysis that is delivered.
+    What is left behind the last is removed; edited workbooks of that stay in sizing/superseded.
 
     `final_paths` are final.json, final.npz and iterations.npz."""
     one, given = Design.from_row(design), read_stage(settings, *ANALYSED)
-    iterations = gather_iterations(json_paths, one.span, given.sizing)
+    case = partial(open_case, mesh_path, given)
+    iterations = gather_iterations(json_paths, one.span, given.sizing, case)
     more = list_versions(PACKAGES), *read_classes(*classes_paths)
     report = make_design_report(iterations, one, given, *more)
     write_rows(csv_path, HistoryRow, iterations.history)
@@ -49,6 +53,7 @@ def main(
 if "snakemake" in globals():
     with run_job(snakemake):  # noqa: F821
         main(
+            snakemake.input.mesh,  # noqa: F821
             snakemake.input.analyses,  # noqa: F821
             snakemake.input.classes,  # noqa: F821
             (files := snakemake.output).csv,  # noqa: F821

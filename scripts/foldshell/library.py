@@ -64,12 +64,14 @@ class Shell:
 class SizedShell:
     """A shell and the analyses of its loop, which are those of analysis.json.
 
-    `thickness` (P,) m of the panels, `utilization` (P,) by the measure of the settings, of the last
-    analysis.
+    `final` is the one that is delivered, as in final.json: the last, or the best of a loop that did
+    not converge; `thickness` (P,) m of the panels and `utilization` (P,), by the measure of the
+    settings, are of it.
     """
 
     shell: Shell
     analyses: tuple[AnalysisRecord, ...]
+    final: AnalysisRecord
     thickness: np.ndarray
     utilization: np.ndarray
 
@@ -129,25 +131,27 @@ def analyse_shell(shell: Shell, thickness: float | np.ndarray) -> SizedShell:
     values = np.broadcast_to(np.asarray(thickness, float), shell.grid.panel.shape)
     task = IterationTask(0, shell.span, round_thickness(values))
     record, arrays = shell.case.run(task, alone=True)
-    return _gather(shell, [record], arrays)
+    return _gather(shell, [record], record, arrays)
 
 
 def size_shell(shell: Shell) -> SizedShell:
     """Size the panels of a shell from the start thickness of the settings until a verdict."""
     done = run_loop(shell.case, shell.span, shell.settings.sizing)
-    return _gather(shell, done.analyses, done.arrays)
+    return _gather(shell, done.analyses, done.final, done.arrays)
 
 
-def _gather(shell: Shell, analyses: Sequence[AnalysisRecord], arrays: AnalysisArrays) -> SizedShell:
+def _gather(
+    shell: Shell, analyses: Sequence[AnalysisRecord], final: AnalysisRecord, arrays: AnalysisArrays
+) -> SizedShell:
     used = arrays.utilization(shell.case.sizing.measure)
     used = np.full(shell.grid.panel.size, np.nan) if used is None else used
-    return SizedShell(shell, tuple(analyses), arrays.thickness, used)
+    return SizedShell(shell, tuple(analyses), final, arrays.thickness, used)
 
 
 def write_workbook(path: str | Path, sized: SizedShell, title: str = "shell") -> None:
     """Write thickness.xlsx with the thicknesses (m) of a shell's panels."""
     sizing, keys = sized.shell.case.sizing, ("iteration", "verdict", "reason", "volume_m3")
-    summary = [Line("design", title), *make_lines(sized.last, keys)]
+    summary = [Line("design", title), *make_lines(sized.final, keys)]
     table = ThicknessTable(sized.shell.grid, sized.thickness)
     bounds = sizing.least_thickness, sizing.largest_thickness
     write_thickness(path, table, summary, *bounds)

@@ -44,7 +44,7 @@ def _sized():
     thickness = np.full(PANELS, settings.sizing.start_thickness)
     first = case.run(IterationTask(0, SPAN, thickness))
     result = run_loop(case, SPAN, settings.sizing)
-    return mesh, first, (result.analyses[-1], result.arrays)
+    return mesh, first, (result.final, result.arrays)
 
 
 def _write_design(folder):

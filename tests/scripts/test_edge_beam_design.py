@@ -68,12 +68,13 @@ def folder(tmp_path_factory):
     )  # fmt: skip
     new = read_thickness(after / "thickness.xlsx", make_panel_grid(ZIGZAG, STRIP), 0.04, 1.0)
     assert new.shape == (PANELS,)
-    run_analysis(iterations_max=0)
+    run_analysis(iterations_max=1)
     classes = loop / "classes.json", loop / "classes.npz"
     settings = stage("analyse")
     group.main(shell, [files[0]], *classes, span_m=SPAN, classes=2, settings=settings)
     size.main(
-        [files[0]], classes, loop / "history.csv", loop / "history.xlsx", folder / "design.xlsx",
+        shell, [files[0]], classes, loop / "history.csv", loop / "history.xlsx",
+        folder / "design.xlsx",
         [loop / name for name in ("final.json", "final.npz", "iterations.npz")],
         design=DESIGN | SIZES, settings=stage("size"),
     )  # fmt: skip

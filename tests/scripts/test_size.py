@@ -53,8 +53,8 @@ def _size(folder, analyses, mesh=None):
     if mesh:
         group.main(mesh, analyses, *classes, span_m=SPAN, classes=3, settings=stage("analyse"))
     size.main(
-        analyses, classes, folder / "history.csv", folder / "history.xlsx",
-        folder.parent / "design.xlsx",
+        folder.parent / "mesh.npz", analyses, classes,
+        folder / "history.csv", folder / "history.xlsx", folder.parent / "design.xlsx",
         [folder / name for name in ("final.json", "final.npz", "iterations.npz")],
         design=DESIGN, settings=stage("size"),
     )  # fmt: skip
@@ -65,7 +65,7 @@ def test_loop_ends_and_is_gathered(loop):
     _size(folder, analyses, folder.parent / "mesh.npz")
     last = read_json(analyses[-1])
     assert last["verdict"] in ("converged", "at_minimum_thickness")
-    assert read_json(folder / "final.json") == last
+    assert read_json(folder / "final.json") == last | {"delivered_iteration": len(analyses) - 1}
     with open(folder / "history.csv", newline="") as file:
         rows = list(csv.DictReader(file))
     assert [int(row["iteration"]) for row in rows] == list(range(len(analyses)))

@@ -64,7 +64,7 @@ class LoopPlan:
     def size(self, last: int) -> Task:
         """Return the job that gathers history and final state."""
         classes = [f"{self.folder}/classes.{kind}" for kind in ("json", "npz")]
-        inputs = Named(**self._all_analyses(last), classes=classes)
+        inputs = Named(mesh=self.mesh, **self._all_analyses(last), classes=classes)
         files = Named(
             final=f"{self.folder}/final.json",
             arrays=f"{self.folder}/final.npz",

@@ -5,7 +5,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal, Self
 
-from foldshell.records.entry import COUNT, Entry, elapsed, entries, entry
+from foldshell.records.entry import COUNT, Entry, elapsed, entries, entry, same
 from foldshell.records.files import read_record, write_record
 
 Verdict = Literal["continue", "converged", "not_converged", "at_minimum_thickness", "unstable"]
@@ -170,8 +170,20 @@ class ShellState:
 
 
 @dataclass(frozen=True, kw_only=True)
+class LastIteration:
+    """Where a loop ended that hands on an earlier state."""
+
+    iteration: int = same(ShellState, "iteration")
+    verdict: Verdict = entry("how the loop ended")
+    reason: str = entry("why, in words")
+    volume_m3: float = same(ShellState, "volume_m3")
+    criteria: Criteria = entry("its criteria")
+
+
+@dataclass(frozen=True, kw_only=True)
 class AnalysisRecord(ShellState):
-    """The contents of analysis.json; final.json is that of the last iteration."""
+    """The contents of analysis.json; final.json is that of the iteration that is delivered: the
+    last one, or the lightest that met every limit where the loop did not converge."""
 
     verdict: Verdict = entry("continue, or how the loop ended")
     reason: str = entry("why, in words")
@@ -193,6 +205,13 @@ class AnalysisRecord(ShellState):
         "what theory or mesh does not hold, a sentence each; stands in the last analysis of a loop",
         words="model warnings", left_out=True,
     )  # fmt: skip
+    delivered_iteration: int | None = entry(
+        "iteration whose state this is; stands in final.json",
+        COUNT, "delivered iteration", left_out=True,
+    )  # fmt: skip
+    last: LastIteration | None = entry(
+        "the last iteration, where an earlier one is delivered; stands in final.json", left_out=True
+    )
 
     @property
     def warning(self) -> str | None:

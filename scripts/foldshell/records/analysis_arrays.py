@@ -45,6 +45,9 @@ class AnalysisArrays:
         "M", "-", "values g of the linearised constraints, g <= 1 is due"
     )
     constraint_gradient: np.ndarray | None = array("M, P", "1/m", "their gradients by thickness")
+    thinning_steps: np.ndarray | None = array(
+        "P", "", "steps by which a panel may thin under those limits: 0, 1 or 2"
+    )
     panel_area: np.ndarray | None = array("P", "m2", "areas of panels, where there are gradients")
 
     def utilization(self, measure: str) -> np.ndarray | None:

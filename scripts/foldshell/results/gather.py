@@ -1,7 +1,7 @@
 """All iterations of one design, read back from their files."""
 
 import shutil
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -19,15 +19,17 @@ from foldshell.records.history import HistoryRow
 from foldshell.records.iteration import read_iteration
 from foldshell.results.history import make_history
 from foldshell.settings.sizing import Sizing
+from foldshell.sizing.case import AnalysisCase
+from foldshell.sizing.delivery import choose_delivered, complete_delivered, describe_delivered
 
 SUPERSEDED = "superseded"
 
 
 @dataclass(frozen=True)
 class Iterations:
-    """Every analysis, the rows of the history, panels in each of them, and the last analysis.npz;
-    thickness (P,) m and utilization (P,), by the measure of the loop, of that analysis, nan without
-    an answer."""
+    """Every analysis, the rows of the history, panels in each of them, and what final.json and
+    final.npz hold; thickness (P,) m and utilization (P,), by the measure of the loop, of that
+    state, nan without an answer. `final_arrays` is None where a file holds them already."""
 
     analyses: list[AnalysisRecord]
     history: list[HistoryRow]
@@ -35,10 +37,19 @@ class Iterations:
     last_arrays: Path
     thickness: np.ndarray
     utilization: np.ndarray
+    final: AnalysisRecord
+    final_arrays: AnalysisArrays | None = None
 
 
-def gather_iterations(json_paths: Sequence[str | Path], span: float, sizing: Sizing) -> Iterations:
-    """Read the iterations in order; span m.
+def gather_iterations(
+    json_paths: Sequence[str | Path],
+    span: float,
+    sizing: Sizing,
+    open_case: Callable[[], AnalysisCase],
+) -> Iterations:
+    """Read the iterations in order, and complete the one that is delivered; span m.
+
+    `open_case` is called where that is not the last one.
 
     Raises
     ------
@@ -49,12 +60,24 @@ def gather_iterations(json_paths: Sequence[str | Path], span: float, sizing: Siz
     analyses, arrays = [one for one, _ in both], [fields for _, fields in both]
     thicknesses = [item.thickness for item in arrays]
     history = make_history(analyses, thicknesses, span / sizing.displacement_limit_span_over)
-    utilization = arrays[-1].utilization(sizing.measure)
+    number = choose_delivered(analyses)
+    final, fields = analyses[number], None
+    if number < analyses[-1].iteration:
+        before = both[number - 1] if number else None
+        final, fields = complete_delivered(open_case(), span, both[number], before)
+    utilization = arrays[number].utilization(sizing.measure)
     if utilization is None:
-        utilization = np.full(len(thicknesses[-1]), np.nan)
-    last = Path(json_paths[-1]).with_suffix(".npz")
-    panels = _stack_panels(arrays)
-    return Iterations(analyses, history, panels, last, thicknesses[-1], utilization)
+        utilization = np.full(len(thicknesses[number]), np.nan)
+    return Iterations(
+        analyses,
+        history,
+        _stack_panels(arrays),
+        Path(json_paths[-1]).with_suffix(".npz"),
+        thicknesses[number],
+        utilization,
+        describe_delivered(analyses, final),
+        fields,
+    )
 
 
 def _stack_panels(arrays: Sequence[AnalysisArrays]) -> IterationsArrays:
@@ -74,11 +97,14 @@ def write_final(
     panels_path: str | Path,
     iterations: Iterations,
 ) -> None:
-    """Write iterations.npz, then final.npz and final.json, which are those of the last analysis."""
+    """Write iterations.npz, then final.npz and final.json of the state that is delivered."""
     write_typed_arrays(panels_path, iterations.panels)
-    with atomic_path(arrays_path) as temporary:
-        shutil.copyfile(iterations.last_arrays, temporary)
-    write_analysis(json_path, iterations.analyses[-1])
+    if iterations.final_arrays is None:
+        with atomic_path(arrays_path) as temporary:
+            shutil.copyfile(iterations.last_arrays, temporary)
+    else:
+        write_typed_arrays(arrays_path, iterations.final_arrays)
+    write_analysis(json_path, iterations.final)
 
 
 def _read(path: str | Path, number: int) -> tuple[AnalysisRecord, AnalysisArrays]:

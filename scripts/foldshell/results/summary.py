@@ -16,6 +16,7 @@ from foldshell.records.quality import QualityRecord
 from foldshell.records.summary import SummaryRow
 from foldshell.results.history import collect_edited_panels
 from foldshell.settings.design import Row
+from foldshell.sizing.delivery import choose_delivered, describe_delivered
 
 Record = TypeVar("Record")
 _ITERATIONS_MAX = 100
@@ -52,14 +53,15 @@ def make_summary_row(design: Row, folder: str | Path) -> SummaryRow:
     problems: list[str] = []
     quality = _read(folder / "folded/quality.json", QualityRecord, folder, problems)
     analyses = _read_analyses(folder, problems)
-    last = analyses[-1] if analyses else None
-    state, reason = _judge(quality, last, problems)
+    final = _read_optional(folder / "sizing/final.json", AnalysisRecord)
+    delivered = _choose_state(analyses, final)
+    state, reason = _judge(quality, delivered, problems)
     study = _read_optional(folder / "mesh_convergence.json", MeshConvergenceRecord)
     return SummaryRow(
         **asdict(make_design_row(design)),
         state=state,
         reason=reason,
-        **_describe_last(last),
+        **_describe_state(delivered),
         iterations=len(analyses) or None,
         edited_panels=len(collect_edited_panels(analyses)) or None,
         mesh_error=study and study.mesh_error,
@@ -69,15 +71,27 @@ def make_summary_row(design: Row, folder: str | Path) -> SummaryRow:
     )
 
 
-def _describe_last(last: AnalysisRecord | None) -> dict[str, float | str | None]:
-    """Return the columns that are those of the last analysis, or made of them."""
-    if last is None:
+def _choose_state(
+    analyses: list[AnalysisRecord], final: AnalysisRecord | None
+) -> AnalysisRecord | None:
+    """Return the state that is delivered, by final.json where that is of these iterations."""
+    if not analyses:
+        return None
+    state = analyses[choose_delivered(analyses)]
+    same = final is not None and final.delivered_iteration == state.iteration
+    read_same = same and final.workbook_sha256 == state.workbook_sha256
+    return final if read_same else describe_delivered(analyses, state)
+
+
+def _describe_state(state: AnalysisRecord | None) -> dict[str, float | str | None]:
+    """Return the columns that are those of the delivered analysis, or made of them."""
+    if state is None:
         return {}
     return {
-        **{key: getattr(last, key) for key in _COPIED},
-        "volume_per_area_m": last.volume_m3 / last.area_m2 if last.area_m2 else None,
-        "buckling_factor_min": last.least_factor,
-        "model_warnings": last.warning,
+        **{key: getattr(state, key) for key in _COPIED},
+        "volume_per_area_m": state.volume_m3 / state.area_m2 if state.area_m2 else None,
+        "buckling_factor_min": state.least_factor,
+        "model_warnings": state.warning,
     }
 
 
@@ -122,11 +136,11 @@ def _read_analyses(folder: Path, problems: list[str]) -> list[AnalysisRecord]:
 
 
 def _judge(
-    quality: QualityRecord | None, last: AnalysisRecord | None, problems: list[str]
+    quality: QualityRecord | None, state: AnalysisRecord | None, problems: list[str]
 ) -> tuple[str, str | None]:
     """Return state and reason: folding first, then missing files, then the sizing's verdict."""
     if quality and quality.state != "ok":
         return quality.state, quality.reason or "folding failed"
     if problems:
         return "failed", "; ".join(problems)
-    return last.verdict, last.reason or None
+    return state.verdict, state.reason or None

@@ -14,11 +14,12 @@ class Sizing(Group):
     thickness."""
 
     rule: str = setting(
-        "dead_band", choices=("dead_band", "fully_stressed", "optimality"),
+        "dead_band", choices=("dead_band", "filtered_dead_band", "fully_stressed", "optimality"),
         former={"literal": "fully_stressed"}, stages=_LOOP,
-        meaning="Grow above utilization_max and shrink below utilization_min; (fully_stressed) "
-        "shrink whenever below utilization_max; or (optimality) least volume that keeps "
-        "utilization, displacement and buckling factor, by gradients.",
+        meaning="Grow above utilization_max and shrink below utilization_min; "
+        "(filtered_dead_band) the same as far as predicted displacement and buckling factor keep "
+        "their limits; (fully_stressed) shrink whenever below utilization_max; or (optimality) "
+        "least volume that keeps utilization, displacement and buckling factor, by gradients.",
     )  # fmt: skip
     measure: str = setting(
         "panel_mean", choices=("panel_mean", "element_max"), stages=_LOOP,

@@ -13,8 +13,8 @@ from foldshell.records.sheet_arrays import MeshArrays
 from foldshell.settings.stage import StageSettings
 from foldshell.shell.analysis import build_model
 from foldshell.shell.mesh_files import mesh_from_arrays
+from foldshell.sizing.constraints import NEED_CONSTRAINTS, least_factor_due
 from foldshell.sizing.iteration import AnalysisCase
-from foldshell.sizing.step import NEED_CONSTRAINTS
 
 _LAST: dict[tuple[str, str], AnalysisCase] = {}
 """The case that `open_case` built last, by the hashes of mesh and settings."""
@@ -53,7 +53,7 @@ def make_case(arrays: Mapping[str, np.ndarray], settings: StageSettings) -> Anal
     )
     cases = make_load_cases(settings.loads, material.unit_weight)
     asked = sizing.rule in NEED_CONSTRAINTS
-    factor_min = sizing.thinning_buckling_factor_min if asked else None
+    factor_min = least_factor_due(sizing) if asked else None
     return AnalysisCase(
         model, material, cases, settings.combinations, settings.analysis, sizing, factor_min
     )

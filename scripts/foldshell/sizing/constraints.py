@@ -5,6 +5,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from foldshell.records.analysis_arrays import AnalysisArrays
+from foldshell.settings.sizing import Sizing
+
+NEED_CONSTRAINTS = ("filtered_dead_band", "optimality")
+"""Rules that work on the linearised constraints of the analysis."""
 
 
 @dataclass(frozen=True)
@@ -14,10 +18,21 @@ class Constraints:
     value: np.ndarray
     gradient: np.ndarray
     area: np.ndarray
+    thinning: np.ndarray | None = None
 
 
 def read_constraints(arrays: AnalysisArrays) -> Constraints | None:
     """Return the constraints that analysis.npz holds, or None."""
     if arrays.constraint_value is None:
         return None
-    return Constraints(arrays.constraint_value, arrays.constraint_gradient, arrays.panel_area)
+    return Constraints(
+        arrays.constraint_value,
+        arrays.constraint_gradient,
+        arrays.panel_area,
+        arrays.thinning_steps,
+    )
+
+
+def least_factor_due(sizing: Sizing) -> float:
+    """Return the buckling factor that rules on constraints keep: the larger of both settings."""
+    return max(sizing.thinning_buckling_factor_min, sizing.buckling_factor_min)

@@ -6,14 +6,17 @@ import numpy as np
 
 from foldshell.records.analysis import Criteria, Criterion
 from foldshell.settings.sizing import Sizing
+from foldshell.sizing.constraints import NEED_CONSTRAINTS, least_factor_due
 
 LAST_ITERATION = 99
 """Iterations are numbered with two digits."""
 
 STATIONARY_ITERATIONS = 3
-"""Iterations in a row over which `stop: stationary` asks for a small change of volume: each may
-take an equal share of `volume_change_max_relative`. Of slow rules a single change says little."""
+"""Iterations in a row over which a small change of volume is asked for, by `stop: stationary` and
+by the rules that work on constraints: of slow rules a single change says little."""
 
+GOVERNS = 0.97
+"""Share of its limit from which displacement or buckling counts as what governs."""
 
 AT_LEAST = ("utilization_min", "buckling_factor")
 """Criteria whose value has to reach the limit; that of the others stays below it."""
@@ -63,38 +66,70 @@ def judge_iteration(now: IterationState, sizing: Sizing) -> Verdict:
         return _judge_unstable(now, sizing)
     criteria = evaluate_criteria(now, sizing)
     change = criteria.volume_change_relative.value
-    share = sizing.volume_change_max_relative / STATIONARY_ITERATIONS
-    small = change is not None and change < share
+    small = change is not None and change < _small_change(sizing)
     stationary_iterations = now.previous_stationary + 1 if small else 0
+    quiet = stationary_iterations >= STATIONARY_ITERATIONS
+    verdict, reason = _judge_criteria(now, sizing, criteria, quiet)
+    return Verdict(verdict, reason, criteria, stationary_iterations)
+
+
+def _judge_criteria(
+    now: IterationState, sizing: Sizing, criteria: Criteria, quiet: bool
+) -> tuple[str, str]:
+    """Return the verdict on an analysis with displacements, and its reason."""
     open_names = criteria.open_names
-    settled = sizing.stop == "table3" or stationary_iterations >= STATIONARY_ITERATIONS
-    if now.state == "ok" and not open_names and settled:
-        return Verdict("converged", "all criteria are met", criteria, stationary_iterations)
     failing = _describe(now, sizing, criteria, open_names)
-    if now.state == "ok" and open_names == ["utilization_min"] and _thinnest(now, sizing):
-        reason = f"every panel stands at the least thickness of {1e3 * sizing.least_thickness:g} mm"
-        return Verdict(
-            "at_minimum_thickness", f"{reason}; {failing}", criteria, stationary_iterations
-        )
+    if now.state == "ok" and not open_names and (quiet or _ends_at_once(sizing)):
+        return "converged", "all criteria are met"
+    if now.state == "ok" and open_names == ["utilization_min"]:
+        governing = _find_governing(now, sizing, criteria)
+        if quiet and governing:
+            return "converged", governing
+        if _thinnest(now, sizing):
+            least = f"{1e3 * sizing.least_thickness:g} mm"
+            reason = f"every panel stands at the least thickness of {least}; {failing}"
+            return "at_minimum_thickness", reason
     if now.state == "ok" and open_names and _unchanged(now):
-        return Verdict(
-            "not_converged",
-            f"no panel changes any more; {failing}",
-            criteria,
-            stationary_iterations,
-        )
+        return "not_converged", f"no panel changes any more; {failing}"
     if used_up := _count_up(now, sizing):
-        reason = f"{used_up}; {failing or 'not stationary'}"
-        return Verdict("not_converged", reason, criteria, stationary_iterations)
-    return Verdict(
-        "continue", failing or now.reason or "not stationary yet", criteria, stationary_iterations
-    )
+        return "not_converged", f"{used_up}; {failing or 'not stationary'}"
+    return "continue", failing or now.reason or "not stationary yet"
+
+
+def _ends_at_once(sizing: Sizing) -> bool:
+    """Tell whether the first iteration that meets Table 3 ends the loop."""
+    return sizing.stop == "table3" and sizing.rule not in NEED_CONSTRAINTS
+
+
+def _small_change(sizing: Sizing) -> float:
+    """Return the relative change of volume below which an iteration counts as quiet: together
+    `volume_change_max_relative`, but for `filtered_dead_band` by Table 3, where each may take all.
+    """
+    if sizing.rule == "filtered_dead_band" and sizing.stop == "table3":
+        return sizing.volume_change_max_relative
+    return sizing.volume_change_max_relative / STATIONARY_ITERATIONS
+
+
+def _find_governing(now: IterationState, sizing: Sizing, criteria: Criteria) -> str:
+    """Say which limit of stiffness a sheet stands at that is not used to `utilization_min`; empty
+    for none, and for rules that do not size for these limits."""
+    if sizing.rule not in NEED_CONSTRAINTS:
+        return ""
+    words, down, factor = [], criteria.displacement_vertical_m, now.buckling_factor
+    if down.value >= GOVERNS * down.limit:
+        words.append(
+            f"displacement_vertical_m {down.value:.4g} stands at its limit {down.limit:.4g}"
+        )
+    least = least_factor_due(sizing)
+    if factor is not None and factor * GOVERNS <= least:
+        words.append(f"buckling_factor {factor:.4g} stands at its limit {least:.4g}")
+    return "; ".join([*words, "all other limits are met"]) if words else ""
 
 
 def _count_up(now: IterationState, sizing: Sizing) -> str:
     """Say that no iteration is left, empty where one is."""
     since = f" since the edit of iteration {now.counted_from}" if now.counted_from else ""
-    if now.iteration - now.counted_from >= sizing.iterations_max:
+    if now.iteration - now.counted_from + 1 >= sizing.iterations_max:
         return f"{sizing.iterations_max} iterations{since} are used up"
     return "" if now.iteration < LAST_ITERATION else f"iteration {LAST_ITERATION} is the last one"
 

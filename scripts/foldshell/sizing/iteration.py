@@ -84,7 +84,7 @@ class AnalysisCase:
             record = describe_edge_beam(done, describe_sheet(done, record))
         if alone or not record.goes_on:
             record = replace(record, model_warnings=find_warnings(done))
-        if not record.goes_on:
+        if alone or not record.goes_on:
             arrays = add_final_fields(done, arrays)
         elif self.factor_min is not None and done.result.state == "ok":
             arrays = _add_constraints(done, self.factor_min, arrays)
@@ -172,4 +172,5 @@ def _add_constraints(done: Analysed, factor_min: float, arrays: AnalysisArrays) 
         constraint_value=found.value,
         constraint_gradient=found.gradient,
         panel_area=found.area,
+        thinning_steps=found.thinning,
     )

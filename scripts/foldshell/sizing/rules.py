@@ -17,7 +17,8 @@ class SizingState:
 
     `step` is the relative step of each panel, `direction` its last change (-1, 0, 1),
     `sign_changes` how often that changed sign. `may_thin` tells whether thinning is allowed at all.
-    `constraints` and the largest relative step `step_max` serve the rule `optimality` alone.
+    `constraints` serve the rules that work on them, the largest relative step `step_max` the rule
+    `optimality` alone.
     """
 
     thickness: np.ndarray
@@ -40,9 +41,16 @@ def start_state(thickness: np.ndarray, step: float) -> SizingState:
 
 def dead_band(state: SizingState, sizing: Sizing) -> SizingState:
     """Grow by the step above the upper limit, shrink below the lower one, keep in between."""
-    wish = np.where(state.utilization > sizing.utilization_max, 1, 0)
-    wish = np.where(state.utilization < sizing.utilization_min, -1, wish)
-    return _step(state, wish, sizing)
+    return _step(state, wish_of_band(state.utilization, sizing), sizing)
+
+
+def wish_of_band(utilization: np.ndarray, sizing: Sizing) -> np.ndarray:
+    """Return 1 for panels (P,) above the band of utilization, -1 below it, 0 in it.
+
+    Without unit.
+    """
+    wish = np.where(utilization > sizing.utilization_max, 1, 0)
+    return np.where(utilization < sizing.utilization_min, -1, wish)
 
 
 def fully_stressed(state: SizingState, sizing: Sizing) -> SizingState:
@@ -60,14 +68,20 @@ def thicken_all(state: SizingState, sizing: Sizing, step: float) -> SizingState:
 def _step(state: SizingState, wish: np.ndarray, sizing: Sizing) -> SizingState:
     """Move each panel by its own step, which is halved after repeated changes of direction."""
     wish = wish if state.may_thin else np.maximum(wish, 0)
+    following = turn(state, wish)
+    thickness = np.clip(
+        state.thickness * (1 + wish * following.step),
+        sizing.least_thickness,
+        sizing.largest_thickness,
+    )
+    return replace(following, thickness=thickness)
+
+
+def turn(state: SizingState, wish: np.ndarray) -> SizingState:
+    """Note the way each panel goes, -1, 0 or 1 (P,); halve its step after repeated changes."""
     turned = wish * state.direction < 0
     sign_changes = state.sign_changes + turned
     halve = turned & (sign_changes % SIGN_CHANGES_MAX == 0)
     step = np.where(halve, state.step / 2, state.step)
-    thickness = np.clip(
-        state.thickness * (1 + wish * step), sizing.least_thickness, sizing.largest_thickness
-    )
     direction = np.where(wish == 0, state.direction, wish)
-    return replace(
-        state, thickness=thickness, step=step, direction=direction, sign_changes=sign_changes
-    )
+    return replace(state, step=step, direction=direction, sign_changes=sign_changes)

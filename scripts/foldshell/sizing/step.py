@@ -8,7 +8,8 @@ import numpy as np
 from foldshell.records.analysis import AnalysisRecord
 from foldshell.records.analysis_arrays import AnalysisArrays, StepMemory
 from foldshell.settings.sizing import Sizing
-from foldshell.sizing.constraints import Constraints, read_constraints
+from foldshell.sizing.constraints import NEED_CONSTRAINTS, Constraints, read_constraints
+from foldshell.sizing.filtered import filtered_dead_band
 from foldshell.sizing.optimality import optimality
 from foldshell.sizing.rounding import round_thickness
 from foldshell.sizing.rules import (
@@ -21,19 +22,17 @@ from foldshell.sizing.rules import (
 
 RULES: dict[str, Callable[[SizingState, Sizing], SizingState]] = {
     "dead_band": dead_band,
+    "filtered_dead_band": filtered_dead_band,
     "fully_stressed": fully_stressed,
     "optimality": optimality,
 }
 
 EDGE_BEAM_NOTE = "thicker for its edge beam"
 
-NEED_CONSTRAINTS = ("optimality",)
-"""Rules that work on the linearised constraints of the analysis."""
-
 
 def first_step(sizing: Sizing) -> float:
     """Return the relative step of every panel at the start."""
-    return sizing.move_limit if sizing.rule in NEED_CONSTRAINTS else sizing.step
+    return sizing.move_limit if sizing.rule == "optimality" else sizing.step
 
 
 @dataclass(frozen=True)

@@ -54,8 +54,8 @@ def make_design_report(
     grouped: ClassesRecord,
     grouped_arrays: ClassesArrays,
 ) -> DesignReport:
-    """Put the last analysis, the panels, the history and the settings together."""
-    last, sizing = iterations.analyses[-1], settings.sizing
+    """Put the delivered analysis, the panels, the history and the settings together."""
+    last, sizing = iterations.final, settings.sizing
     return DesignReport(
         title=f"Design {design.name}",
         verdict=[
@@ -63,6 +63,7 @@ def make_design_report(
             *make_lines(last, ("verdict", "reason")),
             Line("model warnings", last.warning or "none"),
             Line("iterations", len(iterations.analyses)),
+            *_describe_delivered(last),
             *describe_edits(iterations.analyses),
             *make_lines(last, HEADLINES),
             Line("least buckling factor", last.least_factor),
@@ -101,6 +102,17 @@ def _list_loads(settings: StageSettings) -> list[Line]:
         return [_describe_load(name, value) for name, value in vars(loads).items() if value != ()]
     cases = make_load_cases(loads, settings.material.unit_weight)
     return [Line(describe_load(one), one.value, unit_of(one)) for one in cases]
+
+
+def _describe_delivered(final: AnalysisRecord) -> list[Line]:
+    """Say which state stands here where it is not the last one, and what that was."""
+    if final.last is None:
+        return []
+    return [
+        Line("delivered iteration", final.delivered_iteration),
+        Line("last iteration", final.last.iteration),
+        Line("its volume", final.last.volume_m3, "m3"),
+    ]
 
 
 def _describe_load(name: str, value: Any) -> Line:
