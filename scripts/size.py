@@ -1,7 +1,6 @@
 """Rule size: gather the iterations of a design into its history and its final state."""
 
 from collections.abc import Sequence
-from functools import partial
 from pathlib import Path
 
 from foldshell.engine.environment import list_versions
@@ -13,7 +12,6 @@ from foldshell.results.gather import gather_iterations, remove_superseded, write
 from foldshell.settings.analysed import ANALYSED
 from foldshell.settings.design import Design, Row
 from foldshell.settings.stage import Plain, read_stage
-from foldshell.sizing.case import open_case
 from foldshell.workbook.design import write_design
 from foldshell.workbook.design_report import make_design_report
 from foldshell.workbook.history import write_history
@@ -35,11 +33,9 @@ def main(
 ) -> None:
     """Write histories, design.xlsx, panels of all iterations and the analysis that is delivered.
     What is left behind the last is removed; edited workbooks of that stay in sizing/superseded.
-
     `final_paths` are final.json, final.npz and iterations.npz."""
     one, given = Design.from_row(design), read_stage(settings, *ANALYSED)
-    case = partial(open_case, mesh_path, given)
-    iterations = gather_iterations(json_paths, one.span, given.sizing, case)
+    iterations = gather_iterations(json_paths, one.span, given, mesh_path)
     more = list_versions(PACKAGES), *read_classes(*classes_paths)
     report = make_design_report(iterations, one, given, *more)
     write_rows(csv_path, HistoryRow, iterations.history)

@@ -1,7 +1,7 @@
 """All iterations of one design, read back from their files."""
 
 import shutil
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -18,8 +18,8 @@ from foldshell.records.files import REMEDY
 from foldshell.records.history import HistoryRow
 from foldshell.records.iteration import read_iteration
 from foldshell.results.history import make_history
-from foldshell.settings.sizing import Sizing
-from foldshell.sizing.case import AnalysisCase
+from foldshell.settings.stage import StageSettings
+from foldshell.sizing.case import open_case
 from foldshell.sizing.delivery import choose_delivered, complete_delivered, describe_delivered
 
 SUPERSEDED = "superseded"
@@ -44,12 +44,10 @@ class Iterations:
 def gather_iterations(
     json_paths: Sequence[str | Path],
     span: float,
-    sizing: Sizing,
-    open_case: Callable[[], AnalysisCase],
+    given: StageSettings,
+    mesh_path: str | Path,
 ) -> Iterations:
-    """Read the iterations in order, and complete the one that is delivered; span m.
-
-    `open_case` is called where that is not the last one.
+    """Read the iterations in order; where not the last one is delivered, complete that; span m.
 
     Raises
     ------
@@ -59,13 +57,13 @@ def gather_iterations(
     both = [_read(path, number) for number, path in enumerate(json_paths)]
     analyses, arrays = [one for one, _ in both], [fields for _, fields in both]
     thicknesses = [item.thickness for item in arrays]
-    history = make_history(analyses, thicknesses, span / sizing.displacement_limit_span_over)
+    history = make_history(analyses, thicknesses, span / given.sizing.displacement_limit_span_over)
     number = choose_delivered(analyses)
     final, fields = analyses[number], None
     if number < analyses[-1].iteration:
         before = both[number - 1] if number else None
-        final, fields = complete_delivered(open_case(), span, both[number], before)
-    utilization = arrays[number].utilization(sizing.measure)
+        final, fields = complete_delivered(open_case(mesh_path, given), span, both[number], before)
+    utilization = arrays[number].utilization(given.sizing.measure)
     if utilization is None:
         utilization = np.full(len(thicknesses[number]), np.nan)
     return Iterations(

@@ -78,7 +78,7 @@ def _step(state: SizingState, wish: np.ndarray, sizing: Sizing) -> SizingState:
 
 
 def turn(state: SizingState, wish: np.ndarray) -> SizingState:
-    """Note the way each panel goes, -1, 0 or 1 (P,); halve its step after repeated changes."""
+    """Note the way each panel goes, -1, 0 or 1 (P,), no unit; halve its step after some changes."""
     turned = wish * state.direction < 0
     sign_changes = state.sign_changes + turned
     halve = turned & (sign_changes % SIGN_CHANGES_MAX == 0)
