@@ -46,6 +46,11 @@ def of_design(*columns):
     }
 
 
+def holding(wildcards):
+    """Return the supports of a design: a word, or the rows of the set that it names."""
+    return BY_NAME[wildcards.design].holding
+
+
 def edge_beam(wildcards):
     """Return depth and thickness (m) of a design's edge beam, 0 for none."""
     design = BY_NAME[wildcards.design]

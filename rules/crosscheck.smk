@@ -45,7 +45,7 @@ rule mesh_convergence:
     resources:
         mem_mb=memory_of("mesh_convergence"),
     params:
-        **of_design("support"),
+        support=holding,
         edge_beam=edge_beam,
         subdivisions=subdivisions,
         settings=of_stage("crosscheck"),

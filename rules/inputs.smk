@@ -105,7 +105,7 @@ JUDGED = {
     "sized": with_tags(SETTINGS.study, "baseline"),
     "folds": with_tags("fold_modes"),
     "runs": STUDIED,
-    "flats": [d for d in STUDIED if d.pattern == "miura" and flat_of(d)],
+    "flats": [d for d in STUDIED if d.pattern == "miura" and not d.support_rows and flat_of(d)],
 }
 SIZED = ["folded/folded.npz", "folded/quality.json", "shell/mesh.npz", "mesh_convergence.json"]
 SIZED += ["sizing/00/analysis.json", "sizing/00/analysis.npz", "sizing/final.json"]

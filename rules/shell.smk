@@ -15,7 +15,7 @@ rule mesh:
     resources:
         mem_mb=memory_of("mesh"),
     params:
-        **of_design("support"),
+        support=holding,
         edge_beam=edge_beam,
         subdivisions=subdivisions,
     message:

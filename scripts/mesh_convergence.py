@@ -15,6 +15,7 @@ from foldshell.results.mesh_convergence import make_record, study_mesh
 from foldshell.settings.analysed import LOADED
 from foldshell.settings.crosscheck import Crosscheck
 from foldshell.settings.stage import Plain, read_stage
+from foldshell.settings.support_row import from_plain
 from foldshell.shell.edge_beams import make_edge_beam
 
 
@@ -25,23 +26,22 @@ def main(
     study_path: str | Path,
     primary_path: str | Path,
     *,
-    support: str,
+    support: str | Sequence[Plain],
     edge_beam: Sequence[float],
     subdivisions: int,
     settings: Plain,
 ) -> None:
     """Write mesh_convergence.json and crosscheck/primary.json; the reason for a mechanism."""
     given, report = read_stage(settings, *LOADED, Crosscheck), read_analysis(report_path)
-    compared = choose_combinations(given.crosscheck, given.combinations, report)
-    names = [*compared["strength"], *compared["deflection"]]
+    chosen = choose_combinations(given.crosscheck, given.combinations, report)
     study = study_mesh(
         read_checked_arrays(folded_path, FoldedArrays),
-        support,
+        from_plain(support),
         read_typed_arrays(final_path, AnalysisArrays).thickness,
         subdivisions,
         given.material,
         make_load_cases(given.loads, given.material.unit_weight),
-        {name: given.combinations.all[name] for name in names},
+        {name: given.combinations.all[name] for names in chosen.values() for name in names},
         make_edge_beam(*edge_beam),
     )
     write_record(study_path, make_record(study))

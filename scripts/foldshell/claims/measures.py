@@ -9,7 +9,7 @@ from foldshell.records.analysis import AnalysisRecord
 from foldshell.records.analysis_arrays import AnalysisArrays
 from foldshell.records.measures import Measures
 from foldshell.settings.loads import Combinations
-from foldshell.shell.supports import find_support
+from foldshell.shell.supports import SUPPORT_SETS
 
 SCALARS = (
     "utilization_mean",
@@ -22,7 +22,8 @@ SCALARS = (
 
 @dataclass(frozen=True)
 class Layout:
-    """Counts of polylines of a design, and which edges stand on supports: all, zigzag or strip."""
+    """Counts of polylines of a design, and which edges stand on supports: all, zigzag or strip; of
+    a set of the table it is not known."""
 
     zigzag_count: int
     strip_count: int
@@ -39,7 +40,8 @@ class Layout:
         row, column = np.indices((self.zigzag_count - 1, self.strip_count - 1))
         on_zigzag = (row == 0) | (row == self.zigzag_count - 2)
         on_strip = (column == 0) | (column == self.strip_count - 2)
-        held = find_support(self.support).where
+        known = SUPPORT_SETS.get(self.support)
+        held = known.where if known else ()
         free = (on_zigzag & ("zigzag" not in held)) | (on_strip & ("strip" not in held))
         return free.ravel()
 

@@ -13,6 +13,7 @@ import numpy as np
 
 from foldshell.exchange.vtu import write_vtu
 from foldshell.exchange.vtu_legend import describe_fields, known_factors
+from foldshell.records.arrays import list_arrays
 from foldshell.results.combination_fields import CombinationFields, evaluate_combinations
 from foldshell.results.design_view import DesignView
 from foldshell.results.fields import (
@@ -26,6 +27,7 @@ from foldshell.results.line_spacing import split_lines
 from foldshell.results.state import DesignState
 from foldshell.settings.field import Factors
 from foldshell.settings.material import Material
+from foldshell.shell.held_supports import list_supported_vertices
 from foldshell.shell.mesh import edge_polyline_nodes
 
 
@@ -101,6 +103,7 @@ def point_fields(state: DesignState) -> dict[str, np.ndarray]:
     """
     supported = np.zeros(len(state.cells.nodes), dtype=np.int32)
     supported[edge_polyline_nodes(state.cells, state.shell.support_pairs)] = 1
+    supported[list_supported_vertices(list_arrays(state.shell))] = 1
     fields = {"supported": supported}
     if not state.usable:
         return fields

@@ -61,12 +61,15 @@ class Crease:
 
 @dataclass(frozen=True)
 class Support:
-    """Edges (K, 2) that are held: which of x, y, z is fixed, and springs in kN/m per m."""
+    """Edges (K, 2) and vertices (Q,) that are held: which of x, y, z is fixed, springs in kN/m per
+    m of edge or in kN/m at vertices, and whether the rotation about each edge is held."""
 
     name: str
     edges: np.ndarray
     fixed: tuple[bool, bool, bool] = (True, True, True)
     spring: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    vertices: np.ndarray = field(default_factory=lambda: np.empty(0, dtype=np.int64))
+    clamp: bool = False
 
 
 @dataclass(frozen=True)

@@ -8,7 +8,9 @@ from foldshell.files.whole import Json
 from foldshell.settings.loads import Loads
 from foldshell.settings.material import Material
 from foldshell.settings.stage import StageSettings
-from foldshell.shell.supports import BORDERS
+from foldshell.settings.support_row import AXES
+from foldshell.shell.boundary import Hold
+from foldshell.shell.held_supports import list_holds
 
 FORMAT = "foldshell-neutral-model 3"
 """Format 2 (`self_weight_only_panels`) with named supports, lists of combinations that are
@@ -26,10 +28,10 @@ def make_neutral_model(
     """Return the neutral model as plain data in kN, m and kPa.
 
     Facets are flat triangles, counter-clockwise seen from above; every mesh node on a supported
-    edge is pinned (translations only). The superimposed dead load acts against the normal of the
-    sheet, also where a facet overhangs (`dead_side`). No finite element mesh is given: the reader
-    makes its own. The panels of an edge beam have fixed thickness and come last; they
-    are listed as `self_weight_only_panels`, on which no other load acts.
+    edge is pinned (translations only) where its support says nothing else. The superimposed dead
+    load acts against the normal of the sheet, also where a facet overhangs (`dead_side`). No finite
+    element mesh is given: the reader makes its own. The panels of an edge beam have fixed thickness
+    and come last; they are listed as `self_weight_only_panels`, on which no other load acts.
 
     Parameters
     ----------
@@ -50,7 +52,7 @@ def make_neutral_model(
         "facet_panel": mesh["facet_panel"].tolist(),
         "panel_thickness_m": [*panel_thickness.tolist(), *fixed.tolist()],
         **({"self_weight_only_panels": edge_beam_panels} if edge_beam_panels else {}),
-        "supports": _list_supports(mesh["support_pairs"], mesh["support_border"]),
+        "supports": [_describe_support(name, hold) for name, hold in list_holds(mesh).items()],
         "material": _describe_material(settings.material),
         "loads_kn_m2": _describe_loads(settings.loads),
         "area_basis": settings.loads.area_basis,
@@ -60,12 +62,20 @@ def make_neutral_model(
     }
 
 
-def _list_supports(pairs: np.ndarray, border: np.ndarray) -> list[Json]:
-    """Name the supported edges (K, 2) of each border (K,)."""
-    return [
-        {"name": BORDERS[number], "edges": pairs[border == number].tolist()}
-        for number in np.unique(border)
-    ]
+def _describe_support(name: str, hold: Hold) -> Json:
+    """Return a support by what it holds; one that pins edges says no more than these."""
+    found: Json = {"name": name}
+    if len(hold.pairs):
+        found["edges"] = hold.pairs.tolist()
+    if len(hold.vertices):
+        found["vertices"] = hold.vertices.tolist()
+    if not hold.fix.all():
+        found["fix"] = [axis for axis, fixed in zip(AXES, hold.fix, strict=True) if fixed]
+    if hold.clamp:
+        found["clamp"] = True
+    if hold.spring.any():
+        found["spring_kn_m2" if len(hold.pairs) else "spring_kn_m"] = hold.spring.tolist()
+    return found
 
 
 def _describe_material(material: Material) -> Json:

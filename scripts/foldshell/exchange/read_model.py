@@ -12,7 +12,7 @@ from foldshell.files.whole import Json, read_json
 from foldshell.loads.cases import make_load_cases
 from foldshell.records.analysis import AnalysisRecord
 from foldshell.records.analysis_arrays import AnalysisArrays, ClassesArrays
-from foldshell.records.arrays import read_typed_arrays
+from foldshell.records.arrays import list_arrays, read_typed_arrays
 from foldshell.records.iteration import read_iteration
 from foldshell.records.plain import to_plain
 from foldshell.records.sheet_arrays import FoldedArrays, MeshArrays
@@ -20,7 +20,7 @@ from foldshell.results.governing import choose_combinations
 from foldshell.settings.crosscheck import GOVERNING
 from foldshell.settings.design import Row
 from foldshell.settings.stage import StageSettings
-from foldshell.shell.supports import BORDERS, find_support
+from foldshell.shell.held_supports import list_holds
 
 GROUPS = ("strength", "deflection")
 _SCALARS = ("volume_m3", "area_m2", "utilization_max", "utilization_panel_mean_max",
@@ -50,7 +50,7 @@ def read_export_model(
         facet_panel=facet_panel,
         panels=panels,
         creases=_make_creases(edges, facet_panel),
-        supports=_make_supports(mesh, design["support"]),
+        supports=_make_supports(mesh),
         material=settings.material,
         load_cases=make_load_cases(settings.loads, settings.material.unit_weight),
         combinations=settings.combinations.all,
@@ -91,16 +91,18 @@ def _choose_compared(settings: StageSettings, report: AnalysisRecord) -> dict[st
     }
 
 
-def _make_supports(mesh: MeshArrays, name: str) -> tuple[Support, ...]:
-    """Return a support for each border that is held, in the directions that its set fixes."""
-    fix = find_support(name).fix
-    fixed = ("x" in fix, "y" in fix, "z" in fix)
-    pairs, border = mesh.support_pairs, mesh.support_border
-    if border is None:
-        return (Support(f"support {name}", pairs, fixed),)
+def _make_supports(mesh: MeshArrays) -> tuple[Support, ...]:
+    """Return a support for each border that is held, or for each row of a set."""
     return tuple(
-        Support(BORDERS[number], pairs[border == number], fixed)
-        for number in np.unique(border).tolist()
+        Support(
+            name,
+            hold.pairs,
+            tuple(hold.fix.tolist()),
+            tuple(hold.spring.tolist()),
+            hold.vertices,
+            hold.clamp,
+        )
+        for name, hold in list_holds(list_arrays(mesh)).items()
     )
 
 

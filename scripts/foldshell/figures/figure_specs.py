@@ -8,9 +8,11 @@ from foldshell.figures.camera import STANDARD_DIRECTION
 from foldshell.figures.layout import INK, SOFT, Caption, Key
 from foldshell.figures.scene import LIFT, Lines, Scene
 from foldshell.records.analysis import AnalysisRecord
+from foldshell.records.arrays import list_arrays
 from foldshell.results.colour_scales import MISSING, ColourScale, round_step
 from foldshell.results.creases import cut_dashes
 from foldshell.results.design_view import DesignView, count_analyses
+from foldshell.shell.held_supports import list_supported_vertices
 
 DENSE = 350
 """Sheets of more panels get thinner lines, and fewer."""
@@ -58,7 +60,7 @@ def specify_field(
         points, state.triangles, scale.colour(values), (*lines, *extra),
         *support_marks(view),
     )  # fmt: skip
-    all_keys = (*line_keys, *keys, Key("support", "pinned edges"))
+    all_keys = (*line_keys, *keys, Key("support", name_supports(view)))
     words = (facts, describe_verdict(state.report))
     return FigureSpec(scene, Caption(title, words, quantity, scale, above, all_keys, state.name))
 
@@ -70,7 +72,7 @@ def specify_nothing(view: DesignView, title: str, words: str) -> FigureSpec:
     colours = np.tile(np.array(MISSING, dtype=np.uint8), (len(state.triangles), 1))
     scene = Scene(state.cells.nodes, state.triangles, colours, lines, *support_marks(view))
     verdict = describe_verdict(state.report)
-    keys = (*keys, Key("support", "pinned edges"))
+    keys = (*keys, Key("support", name_supports(view)))
     return FigureSpec(scene, Caption(title, (words, verdict), keys=keys, name=state.name))
 
 
@@ -100,10 +102,15 @@ def crease_lines(view: DesignView, points: np.ndarray) -> tuple[tuple[Lines, ...
     return lines, tuple(keys)
 
 
+def name_supports(view: DesignView) -> str:
+    """Return what the marks of supports stand for."""
+    return "pinned edges" if view.state.shell.support_names is None else "supports"
+
+
 def support_marks(view: DesignView) -> tuple[np.ndarray, float]:
     """Return the vertices on supported edges (S, 3) m, and the size of their marks, m."""
     state = view.state
-    vertices = np.unique(state.shell.support_pairs)
+    vertices = list_supported_vertices(list_arrays(state.shell))
     return state.shell.vertices[vertices], view.size / 60
 
 

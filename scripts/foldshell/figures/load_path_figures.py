@@ -11,6 +11,7 @@ from foldshell.figures.figure_specs import (
     crease_lines,
     describe_verdict,
     lines_before,
+    name_supports,
     specify_field,
     specify_nothing,
     support_marks,
@@ -150,5 +151,5 @@ def _specify_lines(
         state.cells.nodes, state.triangles, colours, (*thin, *lines), *support_marks(view)
     )
     words = (facts, describe_verdict(state.report))
-    keys = [*keys, Key("support", "pinned edges", INK)]
+    keys = [*keys, Key("support", name_supports(view), INK)]
     return FigureSpec(scene, Caption(title, words, classes, keys=keys, name=state.name))

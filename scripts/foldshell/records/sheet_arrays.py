@@ -1,7 +1,8 @@
 """folded.npz and mesh.npz: the folded sheet, and the shell mesh on it.
 
 Axes: V vertices, P panels, T facets; N nodes, E elements, L nodes of an element, G edges of facets,
-J nodes along one; S supported edges of facets, H supported nodes, B panels of an edge beam. In
+J nodes along one; S supported edges of facets, H supported nodes, B panels of an edge beam; R rows
+of a set of supports, Q vertices that they hold, W warnings of them. In
 mesh.npz vertices, facets and panels of an edge beam stand after those of the sheet.
 """
 
@@ -56,8 +57,22 @@ class MeshArrays:
     support_pairs: np.ndarray = array(
         "S, 2", "", "vertices of each supported edge of a facet", required=True
     )
-    support_border: np.ndarray | None = array("S", "", "border of the sheet that it lies on")
+    support_border: np.ndarray | None = array(
+        "S", "", "border of the sheet that it lies on, or row of the set of supports that holds it"
+    )
     supported_nodes: np.ndarray = array("H", "", "supported nodes", required=True)
     fixed_thickness: np.ndarray | None = array(
         "B", "m", "thickness of the panels of an edge beam, the last ones"
     )
+    support_names: np.ndarray | None = array(
+        "R", "", "name of each row of the set of supports, where the design names a set"
+    )
+    support_fix: np.ndarray | None = array("R, 3", "", "whether it holds x, y, z")
+    support_clamp: np.ndarray | None = array("R", "", "whether it holds rotations about its edges")
+    support_spring: np.ndarray | None = array(
+        "R, 3", "", "its springs along x, y, z, kN/m per m of edge or kN/m at vertices"
+    )
+    support_vertices: np.ndarray | None = array("Q", "", "vertices that rows hold by themselves")
+    support_vertex_row: np.ndarray | None = array("Q", "", "row that holds each of them")
+    support_warnings: np.ndarray | None = array("W", "", "what is to be said of the supports")
+    support_reports: np.ndarray | None = array("R", "", "what each row holds, as a sentence")

@@ -7,7 +7,7 @@ import numpy as np
 
 from foldshell.loads.cases import make_load_cases, surface_loads
 from foldshell.records.analysis_arrays import IterationsArrays
-from foldshell.records.arrays import read_typed_arrays
+from foldshell.records.arrays import list_arrays, read_typed_arrays
 from foldshell.report.loads_section import describe_loads
 from foldshell.report.viewer_data import COLOURS, Grid, ViewerData
 from foldshell.results.colour_scales import (
@@ -22,6 +22,7 @@ from foldshell.results.fields import cell_area, choose_deflection
 from foldshell.results.reactions import Reactions, find_reactions
 from foldshell.results.state import DesignState
 from foldshell.settings.stage import StageSettings
+from foldshell.shell.held_supports import list_supported_vertices
 
 QUANTITIES = {
     "used": ("utilization [-]", "triangle"),
@@ -132,7 +133,7 @@ def sum_cases(state: DesignState, settings: StageSettings) -> np.ndarray:
 def gather_reactions(state: DesignState, reactions: Reactions) -> tuple[np.ndarray, np.ndarray]:
     """Return the supported vertices (S,) and at each the sum (c, S, 3) kN of the reactions of the
     nodes that are nearest to it."""
-    vertices = np.unique(state.shell.support_pairs)
+    vertices = list_supported_vertices(list_arrays(state.shell))
     away = state.mesh.nodes[reactions.node][:, None] - state.shell.vertices[vertices]
     nearest = np.linalg.norm(away, axis=2).argmin(axis=1)
     sums = np.zeros((len(vertices), *reactions.force.shape[1:]))

@@ -23,6 +23,7 @@ from foldshell.report.section import Box, Section, judge_met
 from foldshell.results.comparisons import UNFOLDED
 from foldshell.results.design_view import count_analyses
 from foldshell.settings.design import Design
+from foldshell.settings.support_row import SUPPORTS
 from foldshell.workbook.styles import GOOD_VERDICTS
 
 FOLDING = (
@@ -114,8 +115,13 @@ def describe_design(design: Design) -> str:
     return (
         f"{design.pattern} pattern, surface {design.surface}, span {design.span:g} m, "
         f"height {design.height:g} m, {design.zigzag} zig-zags × {design.strip} strips, "
-        f"{design.support} edges supported, {made}; tags {tags}"
+        f"{_name_supports(design)}, {made}; tags {tags}"
     )
+
+
+def _name_supports(design: Design) -> str:
+    pinned = design.support in SUPPORTS
+    return f"{design.support} edges supported" if pinned else f"supports {design.support}"
 
 
 def make_verdict(final: AnalysisRecord, history: Sequence[HistoryRow] = ()) -> Section:

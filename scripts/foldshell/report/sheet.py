@@ -21,6 +21,7 @@ from foldshell.results.fields import choose_buckling
 from foldshell.results.reactions import Reactions
 from foldshell.settings.design import Design
 from foldshell.settings.stage import StageSettings
+from foldshell.settings.support_row import SUPPORTS
 from foldshell.workbook.styles import GOOD_VERDICTS
 
 BAR_END = 1.25
@@ -107,13 +108,19 @@ def _geometry(design: Design, final: AnalysisRecord, view: DesignView) -> Table:
         ("extents x, y, z [m]", ", ".join(f"{value:.2f}" for value in size)),
         ("zig-zags x strips", f"{design.zigzag} x {design.strip}"),
         ("panels", len(thickness)),
-        ("supported edges", f"{design.support}, pinned"),
+        ("supported edges", describe_supports(design)),
         ("thickness, least to largest [mm]", f"{thickness.min():.1f} to {thickness.max():.1f}"),
         ("volume [m³]", final.volume_m3),
         ("area of the sheet [m²]", final.area_m2),
         ("volume / area [mm]", 1e3 * final.volume_m3 / final.area_m2),
     ]
     return make_table(("quantity", "value"), rows)
+
+
+def describe_supports(design: Design) -> str:
+    """Return the supports of a design in words: pinned borders, or a set of the table."""
+    pinned = design.support in SUPPORTS
+    return f"{design.support}, pinned" if pinned else f"set {design.support} of the table"
 
 
 def _load_cases(cases: Sequence[Any], reactions: Reactions | None) -> Table:
@@ -128,7 +135,7 @@ def _load_cases(cases: Sequence[Any], reactions: Reactions | None) -> Table:
 
 
 def _reactions(reactions: Reactions | None) -> Table:
-    """Return the resultants of the reactions by edge and combination, and their sums, kN."""
+    """Return the resultants of the reactions by support and combination, and their sums, kN."""
     header = ("combination", "support", "x [kN]", "y [kN]", "z [kN]")
     if reactions is None:
         return make_table(header, [])

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from foldshell.files.whole import Json
+from foldshell.records.arrays import list_arrays
 from foldshell.results.colour_scales import (
     RATIO_RANGE_MIN,
     ColourScale,
@@ -15,6 +16,7 @@ from foldshell.results.colour_scales import (
 from foldshell.results.design_view import DesignView
 from foldshell.results.fields import choose_buckling, choose_deflection
 from foldshell.results.state import DesignState
+from foldshell.shell.held_supports import list_supported_vertices
 from foldshell.shell.mesh import edge_polyline_nodes
 
 COLOURS = 64
@@ -60,14 +62,15 @@ def make_grid(view: DesignView) -> Grid:
     """
     state, creases = view.state, view.creases
     kinds = {kind: getattr(creases, kind) for kind in ("mountain", "valley", "flat", "border")}
-    pairs = state.shell.support_pairs
+    shell = list_arrays(state.shell)
     if len(state.triangles) <= CELLS_MAX:
-        supports = edge_polyline_nodes(state.cells, pairs)
+        held = edge_polyline_nodes(state.cells, state.shell.support_pairs)
+        supports = np.union1d(held, list_supported_vertices(shell))
         return Grid(state.cells.nodes, state.triangles, state.cell_panel, kinds, supports)
     facets = state.shell.facets
     ends = {kind: lines[:, [0, -1]] for kind, lines in kinds.items()}
     return Grid(state.shell.vertices, facets, state.shell.facet_panel, ends,
-                 np.unique(pairs), len(state.triangles) // len(facets))  # fmt: skip
+                 list_supported_vertices(shell), len(state.triangles) // len(facets))  # fmt: skip
 
 
 def _bring_near(nodes: np.ndarray) -> np.ndarray:

@@ -17,11 +17,12 @@ from foldshell.records.mesh_convergence import (
 from foldshell.records.plain import to_plain
 from foldshell.settings.field import Factors
 from foldshell.settings.material import Material
-from foldshell.shell.analysis import analyse_shell, build_model
+from foldshell.settings.support_row import Holding
+from foldshell.shell.analysis import analyse_shell
 from foldshell.shell.edge_beams import EdgeBeam
+from foldshell.shell.held_supports import build_supported_model, sum_supports
 from foldshell.shell.mesh_files import mesh_folded_sheet, mesh_from_arrays
 from foldshell.shell.results import largest_downward, support_reactions, translations
-from foldshell.shell.supports import share_supported_nodes
 
 REFERENCE = ReferenceMesh(order=7)
 """What the mesh that gives the limit changes in the mesh in use: the element order. On the thin
@@ -75,7 +76,7 @@ def extrapolate(coarse: float, fine: float, ratio: float, order: float = ORDER) 
 
 def study_mesh(
     folded: Mapping[str, np.ndarray],
-    support: str,
+    support: Holding,
     panel_thickness: np.ndarray,
     subdivisions: int,
     material: Material,
@@ -216,33 +217,27 @@ def _relative(value: float, limit: float) -> float:
 def _analyse(mesh, folded, support, edge_beam, panel_thickness, material, cases, combinations):
     """Analyse one mesh; return its quantities by combination."""
     arrays = mesh_folded_sheet(dict(folded), support, **mesh, edge_beam=edge_beam)
-    held, fixed = arrays["supported_nodes"], arrays.get("fixed_thickness")
-    model = build_model(
-        mesh_from_arrays(arrays), held, material.poissons_ratio, fixed_thickness=fixed
-    )
-    shares = share_supported_nodes(
-        model.mesh, arrays["support_pairs"], arrays["support_border"], held
-    )
+    model = build_supported_model(mesh_from_arrays(arrays), arrays, material.poissons_ratio)
     thickness = model.to_elements(panel_thickness)
     result = analyse_shell(model, thickness, material, cases, combinations)
     if result.state == "mechanism":
         raise MechanismError(result.reason)
     first = replace(result, displacement=result.first_order, second_order=None)
-    values = _measure(model, first, thickness, material, shares)
+    values = _measure(model, first, thickness, material, arrays)
     for column, name in enumerate(result.names):
         factor = float(result.buckling.factors[column]) if result.buckling else 0.0
         values[name] = replace(values[name], buckling_factor=min(factor, LARGEST_FACTOR))
     if result.state == "ok":
-        for name, second in _measure(model, result, thickness, material, shares).items():
+        for name, second in _measure(model, result, thickness, material, arrays).items():
             values[name] = replace(values[name], second_order=second)
     return values
 
 
-def _measure(model, result, thickness, material, shares) -> dict[str, _OnMesh]:
+def _measure(model, result, thickness, material, arrays) -> dict[str, _OnMesh]:
     """Return the quantities of each combination of a result."""
     used = compute_utilization(model, result.displacement, thickness, material).combination
     reactions = support_reactions(model, result, thickness, material)
-    edges = {name: np.tensordot(share, reactions, 1) for name, share in shares.items()}
+    edges = sum_supports(model.mesh, arrays, model.supported_nodes, reactions)
     total = reactions.sum(axis=0)
     load = translations(model, result.loads).sum(axis=0)
     moved = translations(model, result.displacement)

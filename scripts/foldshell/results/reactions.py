@@ -5,23 +5,30 @@ from dataclasses import dataclass
 import numpy as np
 
 from foldshell.loads.cases import combination_matrix, make_load_cases, surface_loads
+from foldshell.records.arrays import list_arrays
 from foldshell.results.design_view import DesignView
 from foldshell.results.state import DesignState
 from foldshell.settings.stage import StageSettings
 from foldshell.shell.analysis import AnalysisResult, ShellModel
+from foldshell.shell.boundary import find_acting, list_nodes
+from foldshell.shell.held_supports import find_boundary, list_holds, sum_supports
 from foldshell.shell.nodal_loads import nodal_forces
 from foldshell.shell.results import support_reactions
-from foldshell.shell.supports import share_supported_nodes
+from foldshell.shell.support_rows import describe_hold, measure_hold
 
 
 @dataclass(frozen=True)
 class SupportedEdge:
-    """One supported edge: its name, the middle of its nodes (3,) m, and the resultant (3, c) kN of
-    the reactions there in each of c combinations."""
+    """One support: its name, the middle of its nodes (3,) m, and the resultant (3, c) kN of the
+    reactions there in each of c combinations; how many vertices it holds, the length of its edges
+    in m, and in words how it holds them."""
 
     name: str
     place: np.ndarray
     force: np.ndarray
+    vertices: int = 0
+    length: float = 0.0
+    words: str = ""
 
 
 @dataclass(frozen=True)
@@ -81,18 +88,23 @@ def find_reactions(view: DesignView, settings: StageSettings) -> Reactions | Non
 def _model_of(view: DesignView) -> ShellModel:
     """Return the model of a view's mesh, without the pattern of its equations: none are solved."""
     state = view.state
-    held, fixed = state.shell.supported_nodes, state.edge_beam_thickness
-    return ShellModel(state.mesh, view.operators, None, held, fixed)
+    held, beam, acting = state.shell.supported_nodes, state.edge_beam_thickness, None
+    boundary = find_boundary(state.mesh, list_arrays(state.shell))
+    if boundary is not None:
+        held, acting = find_acting(state.mesh, boundary.fixed, boundary.springs)
+    return ShellModel(state.mesh, view.operators, None, held, beam, acting)
 
 
 def _sum_edges(
     state: DesignState, node: np.ndarray, force: np.ndarray
 ) -> tuple[SupportedEdge, ...]:
-    """Return the resultants by supported border polyline, zig-zags first."""
-    pairs, border = state.shell.support_pairs, state.shell.support_border
-    shares = share_supported_nodes(state.mesh, pairs, border, node)
-    places = state.mesh.nodes[node]
-    return tuple(
-        SupportedEdge(name, places[share > 0].mean(axis=0), np.tensordot(share, force, 1))
-        for name, share in shares.items()
-    )
+    """Return the resultants by support: border polylines, zig-zags first, or rows of a set."""
+    arrays, mesh = list_arrays(state.shell), state.mesh
+    holds, found = list_holds(arrays), sum_supports(mesh, arrays, node, force)
+    edges = []
+    for name, total in found.items():
+        own = np.intersect1d(list_nodes(mesh, holds[name]), node)
+        sizes = measure_hold(state.shell.vertices, holds[name])
+        place = mesh.nodes[own].mean(axis=0)
+        edges.append(SupportedEdge(name, place, total, *sizes, describe_hold(holds[name])))
+    return tuple(edges)

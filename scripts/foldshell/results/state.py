@@ -8,10 +8,11 @@ import numpy as np
 from foldshell.files.errors import InputError
 from foldshell.records.analysis import AnalysisRecord
 from foldshell.records.analysis_arrays import AnalysisArrays, ClassesArrays
-from foldshell.records.arrays import read_typed_arrays
+from foldshell.records.arrays import list_arrays, read_typed_arrays
 from foldshell.records.iteration import read_iteration
 from foldshell.records.sheet_arrays import FoldedArrays, MeshArrays
 from foldshell.settings.loads import Combinations
+from foldshell.shell.held_supports import list_fixed
 from foldshell.shell.mesh import ShellMesh
 from foldshell.shell.mesh_files import (
     cell_triangles,
@@ -100,7 +101,7 @@ class DesignState:
         """Return a mode (N, 3), scaled to a largest translation of 1. Without unit."""
         column = self.combinations.index(combination)
         free = np.ones(self.mesh.dof_count, dtype=bool)
-        free[(3 * self.shell.supported_nodes[:, None] + np.arange(3)).ravel()] = False
+        free[list_fixed(self.mesh, list_arrays(self.shell))] = False
         mode = np.zeros(self.mesh.dof_count)
         mode[free] = self.final.buckling_modes[:, column]
         mode = self._at_cells(mode)

@@ -5,6 +5,7 @@ from dataclasses import dataclass
 
 from foldshell.settings.field import Group, list_settings, setting, settings_group
 from foldshell.settings.load_table import PAPER
+from foldshell.settings.support_row import SUPPORTS, PlainRow, SupportRow
 
 Row = dict[str, str | int | float]
 """One design by the columns of designs.tsv, as Snakemake's `params` and files hold it."""
@@ -13,7 +14,6 @@ SURFACES = ("paraboloid", "hypar", "hypar_twist", "arch", "arch_strip")
 """Target surfaces that are known by name; others are mesh files."""
 
 PATTERNS = ("miura", "arc_miura", "smooth", "flat")
-SUPPORTS = ("all", "zigzag", "strip")
 FOLD_MODES = ("elastic", "isometric", "exact", "rigid")
 
 
@@ -47,9 +47,10 @@ class DesignColumns(Group):
         meaning="Number of strip polylines, the borders included.",
     )  # fmt: skip
     support: str = setting(
-        "all", choices=SUPPORTS,
-        meaning="Pinned borders, namely all four, the two zig-zag edges, or the two strip edges.",
-    )  # fmt: skip
+        "all",
+        meaning=f"Pinned borders ({', '.join(SUPPORTS)}: all four, the two zig-zag edges, or the "
+        "two strip edges), or a set of the table of supports; docs/supports.md says more.",
+    )
     loads: str = setting(
         PAPER,
         meaning="Set of loads, `paper` with the values of the group `loads`, or one of the load "
@@ -75,15 +76,21 @@ class DesignColumns(Group):
 @dataclass(frozen=True)
 class Design(DesignColumns):
     """One design of the study; zigzag and strip are counts of polylines, both sizes of the edge
-    beam are 0 where there is none."""
+    beam are 0 where there is none; `support_rows` are those of the set that `support` names."""
 
     name: str = dataclasses.field(kw_only=True)
     tags: tuple[str, ...] = dataclasses.field(kw_only=True, default=())
+    support_rows: tuple[SupportRow, ...] = dataclasses.field(kw_only=True, default=())
 
     @property
     def panels(self) -> int:
         """Number of panels, (zigzag - 1)(strip - 1)."""
         return (self.zigzag - 1) * (self.strip - 1)
+
+    @property
+    def holding(self) -> str | list[PlainRow]:
+        """Its supports as Snakemake's `params` and hashes hold them: a word, or the set's rows."""
+        return [row.to_plain() for row in self.support_rows] or self.support
 
     def to_row(self) -> Row:
         """Return the design as a plain row with the columns of designs.tsv."""

@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Iterable, Mapping
+from dataclasses import replace
 from pathlib import Path
 
 from foldshell.files.errors import InputError
@@ -13,6 +14,7 @@ from foldshell.settings.field import list_settings
 from foldshell.settings.nearest import hint_nearest
 from foldshell.settings.places import RESERVED
 from foldshell.settings.study import Settings
+from foldshell.settings.supports import SupportFinder
 from foldshell.settings.tables import read_table
 
 NAME = re.compile(r"[a-z0-9][a-z0-9_-]{0,63}")
@@ -34,6 +36,7 @@ def read_designs(
     path, found = Path(path), []
     rows = list(read_table(path, COLUMNS, ("design",), _DESIGNS_MAX, "design"))
     designs = [_make_design(row, settings, f"{path}: line {line}", found) for line, row in rows]
+    designs = _add_support_rows(designs, rows, settings, path)
     _check_unique(designs, [line for line, _ in rows], path)
     if notes is not None:
         notes += [f"{path}: {note}" for note in dict.fromkeys(found)]
@@ -80,6 +83,22 @@ def _make_design(
             "are allowed"
         )
     return design
+
+
+def _add_support_rows(
+    designs: list[Design],
+    rows: list[tuple[int, dict[str, str]]],
+    settings: Settings,
+    path: Path,
+) -> list[Design]:
+    """Return the designs, those that name a set of the table of supports with its rows."""
+    finder = SupportFinder(settings.supports)
+    found = []
+    for design, (line, _) in zip(designs, rows, strict=True):
+        place = f"{path}: line {line}: design {design.name!r}: support"
+        held = finder.find(design.support, place)
+        found.append(replace(design, support_rows=held) if held else design)
+    return found
 
 
 def _check_name(name: str, where: str) -> None:

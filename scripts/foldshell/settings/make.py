@@ -12,6 +12,7 @@ from foldshell.settings.load_sets import find_load_sets, list_cases
 from foldshell.settings.loads import UPLIFT, Combinations
 from foldshell.settings.material import age_material
 from foldshell.settings.study import LOAD_TABLE, Settings
+from foldshell.settings.supports import SupportFinder
 
 
 def read_settings(path: str | Path) -> Settings:
@@ -33,6 +34,7 @@ def make_settings(
     combinations = _add_uplift(settings, source) if settings.loads.uplift else settings.combinations
     check_combinations(combinations, settings.loads, source)
     check_sizing(settings.sizing, source)
+    SupportFinder(settings.supports).find(settings.defaults.support, f"{source}: defaults.support")
     check_crosscheck(settings.crosscheck, combinations, source)
     material = age_material(settings.material, settings.analysis.creep_coefficient)
     return replace(settings, material=material, combinations=combinations)

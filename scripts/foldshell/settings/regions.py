@@ -34,18 +34,19 @@ def read_region(text: str) -> Region:
     """
     kind, _, rest = text.strip().partition(" ")
     if kind == BOX:
-        low_x, low_y, high_x, high_y = _read_numbers(rest.replace(",", " "), 4)
+        low_x, low_y, high_x, high_y = read_numbers(rest.replace(",", " "), 4)
         if not (low_x < high_x and low_y < high_y):
             raise ValueError("the box is empty: the least x and y come first")
         return Region(((low_x, low_y), (high_x, low_y), (high_x, high_y), (low_x, high_y)))
     if kind != POLYGON:
         raise ValueError(f"{kind!r} is neither box nor polygon")
-    corners = tuple(tuple(_read_numbers(pair, 2)) for pair in rest.split(","))
+    corners = tuple(tuple(read_numbers(pair, 2)) for pair in rest.split(","))
     _check_polygon(corners)
     return Region(corners)
 
 
-def _read_numbers(text: str, count: int) -> list[float]:
+def read_numbers(text: str, count: int) -> list[float]:
+    """Return so many plain finite numbers with blanks between; raises `ValueError` for others."""
     words = text.split()
     wrong = [word for word in words if not _NUMBER.fullmatch(word)]
     if wrong:

@@ -81,5 +81,6 @@ def hash_decisions(settings: Settings, design: Design) -> str:
     row = {key: value for key, value in design.to_row().items() if key not in NOT_DECIDING}
     if design.surface not in SURFACES:
         row["surface"] = hash_file(design.surface)
+    row["support"] = design.holding
     groups = {stage: stage_parameters(settings, stage, design) for stage in DECIDING}
     return hash_data({"design": row, "settings": groups})[:DIGITS]

@@ -59,6 +59,12 @@ class Settings(Group):
         "config/designs.tsv",
         meaning="Table of designs, one row each; `--config designs=PATH` takes another one.",
     )
+    supports: str = setting(
+        "config/supports.tsv",
+        meaning="Table of supports: sets of rows that the column support of the designs names. It "
+        "is read where a design names one.",
+        stages=(),
+    )
     results: str = setting(
         AUTO,
         meaning="Folder of the results. `auto` is `results`, and `results/<name>` for a table that "

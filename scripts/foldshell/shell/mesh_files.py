@@ -14,33 +14,40 @@ from foldshell.records.arrays import (
     write_typed_arrays,
 )
 from foldshell.records.sheet_arrays import MeshArrays
+from foldshell.settings.support_row import Holding
+from foldshell.shell.boundary import join_holds, list_nodes, refuse_rigid_motion
 from foldshell.shell.edge_beams import EdgeBeam, facet_edges, free_edges, hang_edge_beam_panels
 from foldshell.shell.mesh import ShellMesh, build_mesh, edge_polyline_nodes
 from foldshell.shell.reference import lagrange_basis, lattice_points
+from foldshell.shell.select import HeldSheet
+from foldshell.shell.support_rows import HeldRows, resolve_rows
 from foldshell.shell.supports import find_borders, find_support, supported_pairs
+
+LABELS = ("zigzag", "strip")
 
 
 def mesh_folded_sheet(
     folded: Mapping[str, np.ndarray],
-    support: str,
+    support: Holding,
     subdivisions: int,
     order: int | None = None,
     edge_beam: EdgeBeam | None = None,
 ) -> dict[str, np.ndarray]:
     """Return the arrays of `mesh.npz`: the mesh, the sheet it covers, and its supports.
 
-    See `build_mesh` for subdivisions and order.
+    See `build_mesh` for subdivisions and order. `support` is one of the words for pinned borders,
+    or the rows of a set of supports.
 
     Besides the fields of `ShellMesh` these are vertices (V, 3) m, facets (F, 3), facet_panel (F,),
     support_pairs (K, 2) as vertices, support_border (K,) the border of each (`supports.BORDERS`),
     and supported_nodes (S,). With an edge beam its
     vertices, facets and panels stand after those of the sheet, and fixed_thickness (B,) m holds
-    the thickness of the last B panels, the edge beam's, which are not sized.
+    the thickness of the last B panels, the edge beam's, which are not sized. Raises `ValueError`
+    for supports that hold nothing, or leave the whole free to move.
     """
     vertices, facets = folded["vertices"], folded["facets"]
-    pairs = supported_pairs(
-        facet_edges(facets), folded["zigzag"], folded["strip"], find_support(support)
-    )
+    rows = None if isinstance(support, str) else resolve_rows(_held_sheet(folded), support)
+    pairs = _pin_borders(folded, support) if rows is None else rows.to_arrays()["support_pairs"]
     fixed = {}
     if edge_beam is not None:
         edges = free_edges(facets, pairs)
@@ -48,16 +55,45 @@ def mesh_folded_sheet(
         fixed["fixed_thickness"] = np.full(len(edges), edge_beam.thickness)
     facet_panel = np.arange(len(facets)) // 2
     mesh = build_mesh(vertices, facets, facet_panel, subdivisions, order)
+    held = _list_borders(mesh, folded, pairs) if rows is None else _list_rows(mesh, rows)
     return {
         **{field.name: np.asarray(getattr(mesh, field.name)) for field in fields(mesh)},
         "vertices": vertices,
         "facets": facets,
         "facet_panel": facet_panel,
+        **held,
+        **fixed,
+    }
+
+
+def _held_sheet(folded: Mapping[str, np.ndarray]) -> HeldSheet:
+    facets = folded["facets"]
+    labels = {name: folded[name] for name in LABELS if name in folded}
+    return HeldSheet(folded["vertices"], facets, np.arange(len(facets)) // 2, labels)
+
+
+def _pin_borders(folded: Mapping[str, np.ndarray], support: str) -> np.ndarray:
+    pairs = facet_edges(folded["facets"])
+    return supported_pairs(pairs, folded["zigzag"], folded["strip"], find_support(support))
+
+
+def _list_borders(
+    mesh: ShellMesh, folded: Mapping[str, np.ndarray], pairs: np.ndarray
+) -> dict[str, np.ndarray]:
+    """Return what mesh.npz holds of pinned borders."""
+    return {
         "support_pairs": pairs,
         "support_border": find_borders(pairs, folded["zigzag"], folded["strip"]),
         "supported_nodes": edge_polyline_nodes(mesh, pairs),
-        **fixed,
     }
+
+
+def _list_rows(mesh: ShellMesh, rows: HeldRows) -> dict[str, np.ndarray]:
+    """Return what mesh.npz holds of a set of supports; refuse one that leaves all free to move."""
+    boundary = join_holds(mesh, list(rows.holds))
+    refuse_rigid_motion(mesh, boundary.fixed, boundary.springs)
+    nodes = np.unique(np.concatenate([list_nodes(mesh, hold) for hold in rows.holds]))
+    return {**rows.to_arrays(), "supported_nodes": nodes}
 
 
 def write_mesh(path: str | Path, arrays: Mapping[str, np.ndarray]) -> None:
@@ -129,6 +165,8 @@ def write_mesh_vtu(path: str | Path, mesh: ShellMesh, arrays: Mapping[str, np.nd
     per_element = cells.order**2
     supported = np.zeros(len(cells.nodes), dtype=np.int32)
     supported[edge_polyline_nodes(cells, arrays["support_pairs"])] = 1
+    if arrays.get("support_vertices") is not None:
+        supported[arrays["support_vertices"]] = 1  # vertices are the first nodes
     grid = meshio.Mesh(
         cells.nodes,
         [("triangle", cell_triangles(cells))],

@@ -11,7 +11,7 @@ from foldshell.loads.cases import make_load_cases
 from foldshell.records.arrays import read_checked_arrays
 from foldshell.records.sheet_arrays import MeshArrays
 from foldshell.settings.stage import StageSettings
-from foldshell.shell.analysis import build_model
+from foldshell.shell.held_supports import build_supported_model
 from foldshell.shell.mesh_files import mesh_from_arrays
 from foldshell.sizing.constraints import NEED_CONSTRAINTS, least_factor_due
 from foldshell.sizing.iteration import AnalysisCase
@@ -45,15 +45,12 @@ def open_case(mesh_path: str | Path, settings: StageSettings) -> AnalysisCase:
 def make_case(arrays: Mapping[str, np.ndarray], settings: StageSettings) -> AnalysisCase:
     """Build the same from the arrays of mesh.npz; raises `ValueError` for such supports."""
     material, sizing = settings.material, settings.sizing
-    model = build_model(
-        mesh_from_arrays(arrays),
-        arrays["supported_nodes"],
-        material.poissons_ratio,
-        fixed_thickness=arrays.get("fixed_thickness"),
-    )
+    model = build_supported_model(mesh_from_arrays(arrays), arrays, material.poissons_ratio)
     cases = make_load_cases(settings.loads, material.unit_weight)
     asked = sizing.rule in NEED_CONSTRAINTS
     factor_min = least_factor_due(sizing) if asked else None
+    notes = arrays.get("support_warnings")
     return AnalysisCase(
-        model, material, cases, settings.combinations, settings.analysis, sizing, factor_min
-    )
+        model, material, cases, settings.combinations, settings.analysis, sizing, factor_min,
+        () if notes is None else tuple(map(str, notes.tolist())),
+    )  # fmt: skip

@@ -58,7 +58,7 @@ class IterationTask:
 @dataclass(frozen=True)
 class AnalysisCase:
     """A design ready for any thickness; `factor_min`, the buckling factor to keep, is None where no
-    constraints are asked for."""
+    constraints are asked for; `notes` are what is to be said of its supports."""
 
     model: ShellModel
     material: Material
@@ -67,6 +67,7 @@ class AnalysisCase:
     options: Analysis
     sizing: Sizing
     factor_min: float | None
+    notes: tuple[str, ...] = ()
 
     def run(
         self, task: IterationTask, alone: bool = False

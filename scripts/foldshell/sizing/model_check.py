@@ -42,4 +42,4 @@ def find_warnings(done: Analysed) -> tuple[str, ...]:
         runs=find_support_runs(model.mesh, supported),
         edge_beam=np.stack([model.fixed_thickness, width[sized:]]),
     )
-    return tuple(list_warnings(state))
+    return (*done.case.notes, *list_warnings(state))
