@@ -51,6 +51,11 @@ def holding(wildcards):
     return BY_NAME[wildcards.design].holding
 
 
+def sector_angle_deg(wildcards):
+    """Return a design's sector angle, that of the settings where its row has none."""
+    return BY_NAME[wildcards.design].sector_angle_deg or SECTOR_ANGLE_DEG
+
+
 def edge_beam(wildcards):
     """Return depth and thickness (m) of a design's edge beam, 0 for none."""
     design = BY_NAME[wildcards.design]

@@ -16,7 +16,8 @@ rule pattern:
         "../envs/foldshell.yaml"
     params:
         **of_design("pattern", "surface", "span_m", "height_m", "zigzag", "strip"),
-        sector_angle_deg=SECTOR_ANGLE_DEG,
+        **of_design("rest_fold_angle_deg", "strip_grading"),
+        sector_angle_deg=sector_angle_deg,
         settings=of_stage("drawings"),
     message:
         "{wildcards.design}: crease pattern"

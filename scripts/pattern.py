@@ -5,7 +5,7 @@ from pathlib import Path
 from foldshell.engine.job import run_job
 from foldshell.files.errors import InputError
 from foldshell.folding.targets import make_target, measure_turning
-from foldshell.pattern.design import FRAMES, design_sheet
+from foldshell.pattern.design import design_sheet
 from foldshell.pattern.drawings import draw_pattern, write_dxf, write_svg
 from foldshell.pattern.fold_format import write_fold
 from foldshell.settings.exports import Drawings
@@ -23,20 +23,21 @@ def main(
     zigzag: int,
     strip: int,
     sector_angle_deg: float,
-    frames: int = FRAMES,
     dxf_path: str | Path | None = None,
     svg_path: str | Path | None = None,
     settings: Plain,
+    **form: float,
 ) -> None:
-    """Write crease_pattern.fold: flat pattern, rest state and `frames` folded states [m].
+    """Write crease_pattern.fold: flat pattern, rest state and some folded states [m].
 
-    `dxf_path`, `svg_path`: the flat pattern as drawings [mm] too, by `settings` of `drawings`.
+    `form`: rest fold angle, grading of strips, number of folded states. `dxf_path`, `svg_path`:
+    the flat pattern as drawings [mm] too, by `settings` of `drawings`.
     """
     style = read_stage(settings, Drawings).drawings
     try:
         target = make_target(surface, span_m, height_m)
-        lengths, turning = target.section_lengths(), measure_turning(target)
-        sheet = design_sheet(pattern, lengths, zigzag, strip, sector_angle_deg, frames, turning)
+        lengths, form["turning"] = target.section_lengths(), measure_turning(target)
+        sheet = design_sheet(pattern, lengths, zigzag, strip, sector_angle_deg, **form)
     except InputError:
         raise
     except ValueError as error:

@@ -76,8 +76,7 @@ def place_cells(
     row, column = np.divmod(np.arange(zigzag_count * strip_count), strip_count)
     across, ahead = column * 1.0, column % 2 * 1.0
     if widths is not None:
-        turns = np.where(np.arange(strip_count - 1) % 2 == 0, widths, -widths)
-        across, ahead = (np.append(0.0, np.cumsum(w))[column] for w in (widths, turns))
+        across, ahead = (path[column] for path in _strip_paths(widths))
     return np.column_stack(
         [
             across * cell.across_strips,
@@ -85,6 +84,36 @@ def place_cells(
             (row % 2) * cell.height,
         ]
     )
+
+
+def _strip_paths(widths: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return where the lines between strips stand, in S across them and in V along them."""
+    turns = np.where(np.arange(len(widths)) % 2 == 0, widths, -widths)
+    return np.append(0.0, np.cumsum(widths)), np.append(0.0, np.cumsum(turns))
+
+
+def grade_widths(strip_count: int, grading: float) -> np.ndarray | None:
+    """w = 1 + g (|2 s - 1| - mean), s from 0 to 1 across: widths (strip_count - 1,), mean 1.
+
+    g = `grading` is the width of the borders' strips less that of the middle, in mean widths, as
+    it is for many strips. None for g = 0.
+
+    Raises
+    ------
+    ValueError
+        for a grading that leaves a strip less than a tenth of the mean width.
+    """
+    if not grading:
+        return None
+    middle = (np.arange(strip_count - 1) + 0.5) / (strip_count - 1)
+    outward = np.abs(2 * middle - 1)
+    widths = 1 + grading * (outward - outward.mean())
+    if widths.min() < 0.1:
+        raise ValueError(
+            f"strip_grading {grading:g}: the narrowest of {strip_count - 1} strips is "
+            f"{widths.min():.2g} of the mean width, at least 0.1 is allowed"
+        )
+    return widths
 
 
 def flat_vertices(pattern: Miura, widths: np.ndarray | None = None) -> np.ndarray:
@@ -128,16 +157,19 @@ def size_miura(
     zigzag_count: int,
     strip_count: int,
     poisson: float = -1.0,
+    widths: np.ndarray | None = None,
 ) -> Miura:
     """Choose sides so that the rest state measures the two given lengths [m].
 
     (strip_count - 1) S = first, (zigzag_count - 1) L + V = second; `poisson` is the rest state's
-    ratio.
+    ratio, `widths` (strip_count - 1,) of mean 1 are the strips' over `side_b`. With them the
+    zig-zags lean over several V.
     """
+    lean = 1.0 if widths is None else float(np.ptp(_strip_paths(widths)[1]))
     rest = rest_fold_angle(sector_angle, poisson)
     unit = fold_cell(Miura(1.0, 1.0, sector_angle, zigzag_count, strip_count), rest)
     side_b = length_across_strips / ((strip_count - 1) * unit.across_strips)
-    rows = length_across_zigzags - side_b * unit.offset
+    rows = length_across_zigzags - side_b * unit.offset * lean
     if rows <= 0:
         raise ValueError(
             f"strips {strip_count}: too few for zig-zags {zigzag_count}, one panel is longer than "

@@ -14,6 +14,8 @@ SURFACES = ("paraboloid", "hypar", "hypar_twist", "arch", "arch_strip")
 """Target surfaces that are known by name; others are mesh files."""
 
 PATTERNS = ("miura", "arc_miura", "smooth", "flat")
+SILENT_AT_ZERO = ("sector_angle_deg", "rest_fold_angle_deg", "strip_grading")
+"""Columns that say nothing where they are 0, as if they were not there."""
 FOLD_MODES = ("elastic", "isometric", "exact", "rigid")
 
 
@@ -71,6 +73,20 @@ class DesignColumns(Group):
         meaning="Thickness of the edge beam, which no sizing rule changes; both sizes are given or "
         "none.",
     )  # fmt: skip
+    sector_angle_deg: float = setting(
+        0, unit="degrees", ranges=((5, 88),),
+        meaning="Acute angle of a panel of a Miura sheet; 0 takes that of the settings.",
+    )  # fmt: skip
+    rest_fold_angle_deg: float = setting(
+        0, unit="degrees", ranges=((5, 85),),
+        meaning="Angle of a panel to the plane in the rest state of a Miura sheet, 0 would be flat "
+        "and 90 folded flat; 0 takes the one at which its Poisson's ratio is -1.",
+    )  # fmt: skip
+    strip_grading: float = setting(
+        0, minimum=-1.5, maximum=1.5,
+        meaning="How much wider the strips of a Miura sheet are at the borders than in the middle, "
+        "in mean widths; below 0 they are narrower there.",
+    )  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -97,9 +113,17 @@ class Design(DesignColumns):
         columns = {known.key: getattr(self, name) for name, known in _COLUMNS.items()}
         return {"design": self.name, **columns, "tags": ",".join(self.tags)}
 
+    def decide(self) -> Row:
+        """Return the columns that decide its final state: all but name and tags, and but those of
+        its pattern that say nothing."""
+        row = self.to_row()
+        silent = {key for key in SILENT_AT_ZERO if not row[key]}
+        return {key: row[key] for key in row if key not in {"design", "tags"} | silent}
+
     @classmethod
     def from_row(cls, row: Row) -> "Design":
-        """Return the design of such a row."""
+        """Return the design of such a row, which may leave out what is silent at 0."""
+        row = dict.fromkeys(SILENT_AT_ZERO, 0.0) | row
         values = {name: row[known.key] for name, known in _COLUMNS.items()}
         tags = tuple(filter(None, row["tags"].split(",")))
         return cls(name=row["design"], tags=tags, **values)

@@ -1,5 +1,6 @@
 """The table of designs: read strictly, validate, fill in defaults, choose by tag."""
 
+import math
 import re
 from collections.abc import Iterable, Mapping
 from dataclasses import replace
@@ -9,7 +10,7 @@ from foldshell.files.errors import InputError
 from foldshell.files.meshes.read import FORMATS, is_mesh_file
 from foldshell.settings.check import Reader, parse_text
 from foldshell.settings.consistency import check_thickness
-from foldshell.settings.design import COLUMNS, SURFACES, Design, DesignColumns
+from foldshell.settings.design import COLUMNS, SILENT_AT_ZERO, SURFACES, Design, DesignColumns
 from foldshell.settings.field import list_settings
 from foldshell.settings.nearest import hint_nearest
 from foldshell.settings.places import RESERVED
@@ -75,6 +76,7 @@ def _make_design(
     design = Design(name=cells["design"], tags=tuple(words), **columns)
     _check_surface(design.surface, where)
     _check_edge_beam(design, where)
+    _check_miura(design, settings, where)
     check_thickness(design, settings.sizing, where)
     if design.panels > settings.limits.panels_max:
         raise InputError(
@@ -139,6 +141,21 @@ def _check_edge_beam(design: Design, where: str) -> None:
         raise InputError(
             f"{where}: edge_beam_thickness_m: {thickness:g}: less than the depth of the edge beam, "
             f"{abs(depth):g} m, is allowed"
+        )
+
+
+def _check_miura(design: Design, settings: Settings, where: str) -> None:
+    for column in SILENT_AT_ZERO:
+        if getattr(design, column) and design.pattern not in ("miura", "flat"):
+            raise InputError(
+                f"{where}: {column}: {getattr(design, column):g}: pattern {design.pattern} has no "
+                "such parameter: leave it empty, or take pattern miura"
+            )
+    angle = design.sector_angle_deg or math.degrees(settings.pattern.sector_angle)
+    if design.sector_angle_deg and angle <= 45 and not design.rest_fold_angle_deg:
+        raise InputError(
+            f"{where}: sector_angle_deg: {angle:g}: above 45 is allowed where rest_fold_angle_deg "
+            "is empty: below it no rest state has a Poisson's ratio of -1"
         )
 
 

@@ -78,7 +78,7 @@ def hash_decisions(settings: Settings, design: Design) -> str:
     settings of `DECIDING`. A thickness that a person edits is added by `hash_edit` where it is
     analysed. Other settings (cross-check, classes, pictures, jobs) change no final state.
     """
-    row = {key: value for key, value in design.to_row().items() if key not in NOT_DECIDING}
+    row = {key: value for key, value in design.decide().items() if key not in NOT_DECIDING}
     if design.surface not in SURFACES:
         row["surface"] = hash_file(design.surface)
     row["support"] = design.holding

@@ -9,13 +9,17 @@ from foldshell.settings.design import COLUMNS
 from foldshell.settings.designs import NAME, read_designs, select_designs
 from foldshell.settings.make import make_settings
 from foldshell.settings.schema import make_designs_schema
-from foldshell.settings.stages import choose_subdivisions
+from foldshell.settings.stages import choose_subdivisions, hash_decisions
 
 CONFIG_FOLDER = Path(__file__).parents[3] / "config"
 SETTINGS = make_settings({})
-FILES = ("folded", "file_unit", "loads")
-HEADER = "\t".join(column for column in COLUMNS if column not in FILES)
-GOOD = "a\tmiura\tarch\t28\t10\t15\t16\tstrip\telastic\t0.5\t0.15\tx,y"
+HEADER = "\t".join(COLUMNS)
+_GIVEN = {
+    "design": "a", "pattern": "miura", "surface": "arch", "span_m": "28", "height_m": "10",
+    "zigzag": "15", "strip": "16", "support": "strip", "fold_mode": "elastic",
+    "edge_beam_depth_m": "0.5", "edge_beam_thickness_m": "0.15", "tags": "x,y",
+}  # fmt: skip
+GOOD = "\t".join(_GIVEN.get(column, "") for column in COLUMNS)
 
 
 def read(tmp_path, text: str | bytes, settings=SETTINGS):
@@ -148,9 +152,33 @@ def test_ten_thousand_designs_are_allowed_and_no_more(tmp_path):
         read(tmp_path, "\n".join([*lines, "one_more"]) + "\n")
 
 
+@pytest.mark.parametrize(
+    ("column", "value", "pattern", "named"),
+    [
+        ("sector_angle_deg", "44", "miura", "above 45 is allowed where rest_fold_angle_deg"),
+        ("sector_angle_deg", "2", "miura", "sector_angle_deg: 2: 0 for none or a number"),
+        ("rest_fold_angle_deg", "30", "smooth", "pattern smooth has no such parameter"),
+        ("strip_grading", "0.2", "arc_miura", "pattern arc_miura has no such parameter"),
+        ("strip_grading", "2", "miura", "strip_grading: 2: a number"),
+    ],
+)
+def test_columns_of_the_form_of_a_miura_sheet(tmp_path, column, value, pattern, named):
+    text = f"design\tpattern\t{column}\na\t{pattern}\t{value}\n"
+    with pytest.raises(InputError, match=named):
+        read(tmp_path, text)
+
+
+def test_columns_that_say_nothing_change_no_hash(tmp_path):
+    """A design without them is what it was before there were such columns."""
+    (plain,) = read(tmp_path, "design\na\n")
+    (graded,) = read(tmp_path, "design\tstrip_grading\na\t0.2\n")
+    assert set(plain.decide()) & {"sector_angle_deg", "strip_grading"} == set()
+    assert hash_decisions(SETTINGS, plain) != hash_decisions(SETTINGS, graded)
+
+
 def cell(column: str, value: str) -> str:
     cells = GOOD.split("\t")
-    cells[HEADER.split("\t").index(column)] = value
+    cells[COLUMNS.index(column)] = value
     return f"{HEADER}\n" + "\t".join(cells) + "\n"
 
 
