@@ -96,7 +96,7 @@ def grade_widths(strip_count: int, grading: float) -> np.ndarray | None:
     """w = 1 + g (|2 s - 1| - mean), s from 0 to 1 across: widths (strip_count - 1,), mean 1.
 
     g = `grading` is the width of the borders' strips less that of the middle, in mean widths, as
-    it is for many strips. None for g = 0.
+    it is for many strips; widths have no unit. None for g = 0.
 
     Raises
     ------
