@@ -30,8 +30,7 @@ def main(
 ) -> None:
     """Write crease_pattern.fold: flat pattern, rest state and some folded states [m].
 
-    `form`: rest fold angle, grading of strips, number of folded states. `dxf_path`, `svg_path`:
-    the flat pattern as drawings [mm] too, by `settings` of `drawings`.
+    `form`: rest fold angle, grading, number of folded states; `dxf_path`, `svg_path`: drawings.
     """
     style = read_stage(settings, Drawings).drawings
     try:
