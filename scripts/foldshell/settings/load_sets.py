@@ -20,11 +20,16 @@ PAPER_ACTIONS = tuple(Action(case, kind, kind == "wind") for case, kind in NAMED
 
 
 def find_load_sets(path: object) -> LoadSets:
-    """Return the sets of a table of loads; none where the table of the default name is missing."""
+    """Return the sets of a table of loads; none where the table of the default name is missing.
+
+    Raises `InputError` that names the setting where there is no such file.
+    """
     if not isinstance(path, str):
         return {}
-    if path == LOAD_TABLE and not Path(path).exists():
-        return {}
+    if not Path(path).is_file():
+        if path == LOAD_TABLE:
+            return {}
+        raise InputError(f"configuration: load_table: {path!r}: no such file")
     return read_load_sets(path)
 
 
