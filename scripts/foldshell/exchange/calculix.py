@@ -9,7 +9,8 @@ from pathlib import Path
 
 import numpy as np
 
-from foldshell.exchange.fe_mesh import QuadMesh, divide_facets, held_nodes
+from foldshell.exchange.fe_mesh import QuadMesh, divide_facets
+from foldshell.exchange.fe_supports import held_nodes, held_rotations, spring_nodes
 from foldshell.exchange.model import ExportModel, load_on_facets
 from foldshell.exchange.options import ExportOptions
 from foldshell.files.whole import atomic_path
@@ -96,11 +97,26 @@ def _property_lines(model: ExportModel) -> list[str]:
 
 def _support_lines(model: ExportModel, mesh: QuadMesh) -> list[str]:
     lines, held = ["*NSET, NSET=SUPPORTED"], held_nodes(model, mesh)
-    every = [node + 1 for node in held]
+    springs, turned = spring_nodes(model, mesh), held_rotations(model, mesh)
+    every = [node + 1 for node in sorted({*held, *springs, *turned})]
     lines += [", ".join(map(str, every[k : k + 12])) for k in range(0, len(every), 12)]
     lines.append("*BOUNDARY")
-    for node, fixed in held.items():
-        lines += [f"{node + 1}, {axis}, {axis}" for axis, is_held in enumerate(fixed, 1) if is_held]
+    for first, known in ((1, held), (4, turned)):
+        for node, fixed in known.items():
+            axes = [axis for axis, is_held in enumerate(fixed, first) if is_held]
+            lines += [f"{node + 1}, {axis}, {axis}" for axis in axes]
+    return lines + _spring_lines(springs, len(mesh.elements))
+
+
+def _spring_lines(springs: dict[int, tuple[float, float, float]], elements: int) -> list[str]:
+    """Return one spring to the ground for each node and direction, numbered after the elements."""
+    lines, number = [], elements
+    for node, stiffness in springs.items():
+        for axis, value in enumerate(stiffness, 1):
+            if value:
+                number += 1
+                lines += [f"*ELEMENT, TYPE=SPRING1, ELSET=SPRING{number}", f"{number}, {node + 1}",
+                          f"*SPRING, ELSET=SPRING{number}", f"{axis}", _number(value)]  # fmt: skip
     return lines
 
 

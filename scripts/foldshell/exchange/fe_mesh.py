@@ -13,14 +13,16 @@ MIDDLE = np.array([[0, 1], [1, 2], [2, 3], [3, 0]])
 @dataclass(frozen=True)
 class QuadMesh:
     """`nodes` (N, 3) m; `corners` (E, 4) and `middles` (E, 4) of sides, counter-clockwise from the
-    positive side, empty (E, 0) without them; `facet` (E,); `supported` (K,) nodes on each edge of
-    the supports, one array a support."""
+    positive side, empty (E, 0) without them; `facet` (E,); `supported` (S,) nodes of each support,
+    `chains` (K, m) those along its edges from end to end, `alone` (Q,) those at its vertices."""
 
     nodes: np.ndarray
     corners: np.ndarray
     middles: np.ndarray
     facet: np.ndarray
     supported: tuple[np.ndarray, ...]
+    chains: tuple[np.ndarray, ...]
+    alone: tuple[np.ndarray, ...]
 
     @property
     def elements(self) -> np.ndarray:
@@ -41,9 +43,12 @@ def divide_facets(model: ExportModel, n: int, middles: bool) -> QuadMesh:
     keys, number = _number(model.facets, weights[used])
     nodes = np.einsum("nk,nkx->nx", keys[:, 3:] / weights[0].sum(), model.vertices[keys[:, :3]])
     elements = number[:, local].reshape(-1, own.shape[1])
-    supported = tuple(_nodes_on(keys, support.edges) for support in model.supports)
+    chains = tuple(_nodes_on(keys, support.edges) for support in model.supports)
+    alone = tuple(_nodes_at(keys, support.vertices) for support in model.supports)
+    pairs = zip(chains, alone, strict=True)
+    supported = tuple(np.union1d(chain.ravel(), points).astype(int) for chain, points in pairs)
     facet = np.repeat(np.arange(len(model.facets)), len(own))
-    return QuadMesh(nodes, elements[:, :4], elements[:, 4:], facet, supported)
+    return QuadMesh(nodes, elements[:, :4], elements[:, 4:], facet, supported, chains, alone)
 
 
 def _reference(n: int) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
@@ -83,22 +88,27 @@ def _number(facets: np.ndarray, weights: np.ndarray) -> tuple[np.ndarray, np.nda
 
 
 def _nodes_on(keys: np.ndarray, edges: np.ndarray) -> np.ndarray:
-    """Return the nodes that lie on edges (K, 2), given as vertices."""
+    """Return the nodes (K, m) along edges (K, 2), given as vertices, from end to end."""
+    if not len(edges):
+        return np.empty((0, 0), dtype=np.int64)
+    pairs = np.sort(edges, axis=1)
     width = int(keys[:, 2].max()) + 1
-    pairs = np.sort(edges, axis=1) @ [width, 1]
-    inside = (keys[:, 0] < 0) & (keys[:, 1] >= 0)
-    inside &= np.isin(keys[:, 1] * width + keys[:, 2], pairs)
-    return np.flatnonzero(inside | ((keys[:, 1] < 0) & np.isin(keys[:, 2], edges)))
+    inside = np.flatnonzero((keys[:, 0] < 0) & (keys[:, 1] >= 0))
+    own = keys[inside, 1] * width + keys[inside, 2]
+    order = np.lexsort((keys[inside, 5], own))
+    inside, own = inside[order], own[order]
+    first = np.searchsorted(own, pairs @ [width, 1])
+    count = int((own == own[first[0]]).sum())
+    between = inside[first[:, None] + np.arange(count)]
+    ends = _nodes_at(keys, pairs.ravel()).reshape(-1, 2)
+    return np.column_stack([ends[:, 0], between, ends[:, 1]])
 
 
-def held_nodes(model: ExportModel, mesh: QuadMesh) -> dict[int, tuple[bool, bool, bool]]:
-    """Return which of x, y, z is fixed at each supported node, by all supports that it lies on."""
-    held: dict[int, tuple[bool, bool, bool]] = {}
-    for support, nodes in zip(model.supports, mesh.supported, strict=True):
-        for node in nodes.tolist():
-            own = held.get(node, (False, False, False))
-            held[node] = tuple(a or b for a, b in zip(own, support.fixed, strict=True))
-    return dict(sorted(held.items()))
+def _nodes_at(keys: np.ndarray, vertices: np.ndarray) -> np.ndarray:
+    """Return the nodes (Q,) at vertices."""
+    single = np.flatnonzero(keys[:, 1] < 0)
+    order = np.argsort(keys[single, 2])
+    return single[order[np.searchsorted(keys[single[order], 2], vertices)]]
 
 
 def mesh_loads(model: ExportModel, mesh: QuadMesh, load: np.ndarray) -> np.ndarray:

@@ -1,12 +1,14 @@
 """The structural analysis model of IFC4: surface members, edge connections, loads, combinations."""
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
 
+from foldshell.exchange.fe_supports import clamp_axes
 from foldshell.exchange.ifc_file import IfcFile
 from foldshell.exchange.model import ExportModel, Support
-from foldshell.exchange.saf import Member, surface_action
+from foldshell.exchange.saf import FREE, Member, surface_action
 from foldshell.loads.cases import DOWN, WEIGHT, SurfaceLoad
 
 AXES = "XYZ"
@@ -21,6 +23,7 @@ def add_analysis(
     for member, surface, plate in zip(members, surfaces, plates, strict=True):
         file.relate("IfcRelAssignsToProduct", member.name, plate, [surface])
     joined = _add_connections(file, model, topology, members, surfaces)
+    joined += _add_points(file, model, topology, members, surfaces)
     cases = [_add_case(file, case, members, surfaces) for case in model.load_cases]
     combinations = _add_combinations(file, model, cases)
     place = file.make("IfcLocalPlacement", None, file.axes((0.0, 0.0, 0.0)))
@@ -84,27 +87,66 @@ def _add_member(file: IfcFile, topology: _Topology, member: Member) -> Any:
     )  # fmt: skip
 
 
-def _condition(file: IfcFile, support: Support) -> Any:
-    """Return a support's condition along an edge: fixed, free, or a spring in N/m2."""
-    values = []
-    for fixed, spring in zip(support.fixed, support.spring, strict=True):
-        if spring and not fixed:
-            kind = "IfcModulusOfLinearSubgradeReactionMeasure"
-            values.append(file.make(kind, 1000.0 * spring))
-        else:
-            values.append(file.make("IfcBoolean", bool(fixed)))
-    free = [file.make("IfcBoolean", False) for _ in AXES]
-    return file.make("IfcBoundaryEdgeCondition", support.name, *values, *free)
+def _condition(file: IfcFile, support: Support, turned: Sequence[bool]) -> Any:
+    """Return a support's condition along an edge: fixed, free, or a spring in N/m2; and the axes
+    about which it is clamped."""
+    values = _hold(file, support, "IfcModulusOfLinearSubgradeReactionMeasure")
+    held = [file.make("IfcBoolean", bool(fixed)) for fixed in turned]
+    return file.make("IfcBoundaryEdgeCondition", support.name, *values, *held)
+
+
+def _hold(file: IfcFile, support: Support, kind: str) -> list[Any]:
+    return [
+        file.make(kind, 1000.0 * spring)
+        if spring and not fixed
+        else file.make("IfcBoolean", bool(fixed))
+        for fixed, spring in zip(support.fixed, support.spring, strict=True)
+    ]
+
+
+def _hold_edges(file: IfcFile, model: ExportModel) -> dict[tuple[int, int], Any]:
+    """Return the condition of each supported edge; edges of one support and kind share it."""
+    held: dict[tuple[int, int], Any] = {}
+    for support in model.supports:
+        turns = clamp_axes(model, support) if support.clamp else [FREE] * len(support.edges)
+        known: dict[tuple[bool, ...], Any] = {}
+        for pair, turned in zip(np.sort(support.edges, axis=1).tolist(), turns, strict=True):
+            if turned not in known:
+                known[turned] = _condition(file, support, turned)
+            held[tuple(pair)] = known[turned]
+    return held
+
+
+def _add_points(
+    file: IfcFile, model: ExportModel, topology: _Topology, members, surfaces: list[Any]
+) -> list[Any]:
+    """Add a connection at every vertex that a support holds by itself."""
+    made = []
+    for support in model.supports:
+        if not len(support.vertices):
+            continue
+        values = _hold(file, support, "IfcLinearStiffnessMeasure")
+        free = [file.make("IfcBoolean", False) for _ in AXES]
+        condition = file.make("IfcBoundaryNodeCondition", support.name, *values, *free)
+        for vertex in support.vertices.tolist():
+            name = f"V{vertex}"
+            connection = file.root(
+                "IfcStructuralPointConnection", name, Name=name, AppliedCondition=condition,
+                Representation=topology.show(topology.vertex(vertex), "Vertex"),
+            )  # fmt: skip
+            for k in (k for k, member in enumerate(members) if vertex in member.vertices):
+                file.root("IfcRelConnectsStructuralMember", f"{name}/{members[k].name}",
+                          RelatingStructuralMember=surfaces[k],
+                          RelatedStructuralConnection=connection)  # fmt: skip
+            made.append(connection)
+    return made
 
 
 def _add_connections(
     file: IfcFile, model: ExportModel, topology: _Topology, members, surfaces: list[Any]
 ) -> list[Any]:
     """Add a connection on every edge, with a relation to each member there, and its support."""
-    held: dict[tuple[int, int], Any] = {}
-    for support in model.supports:
-        condition = _condition(file, support)
-        held |= {(a, b): condition for a, b in np.sort(support.edges, axis=1).tolist()}
+    held = _hold_edges(file, model)
     owners: dict[tuple[int, int], list[int]] = {}
     for k, member in enumerate(members):
         for a, b in zip(member.vertices, [*member.vertices[1:], member.vertices[0]], strict=True):

@@ -10,7 +10,8 @@ from pathlib import Path
 
 import numpy as np
 
-from foldshell.exchange.fe_mesh import QuadMesh, divide_facets, held_nodes, mesh_loads
+from foldshell.exchange.fe_mesh import QuadMesh, divide_facets, mesh_loads
+from foldshell.exchange.fe_supports import held_nodes, held_rotations, spring_nodes
 from foldshell.exchange.model import ExportModel, load_on_facets
 from foldshell.exchange.options import ExportOptions
 from foldshell.files.whole import atomic_path
@@ -27,7 +28,13 @@ def build():
     for tag, point in enumerate(NODES, 1):
         ops.node(tag, *point)
     for tag, fixed in SUPPORTS.items():
-        ops.fix(tag, *fixed, 0, 0, 0)
+        ops.fix(tag, *fixed)
+    for number, (tag, axis, stiffness) in enumerate(SPRINGS, 1):
+        ground = len(NODES) + number
+        ops.node(ground, *NODES[tag - 1])
+        ops.fix(ground, 1, 1, 1, 1, 1, 1)
+        ops.uniaxialMaterial("Elastic", number, stiffness)
+        ops.element("zeroLength", len(ELEMENTS) + number, ground, tag, "-mat", number, "-dir", axis)
     for tag, thickness in enumerate(THICKNESS, 1):
         ops.section("ElasticMembranePlateSection", tag, E, NU, thickness, 0.0)
     for tag, (panel, *nodes) in enumerate(ELEMENTS, 1):
@@ -51,7 +58,8 @@ def solve(name):
         raise SystemExit(f"{name}: OpenSees found no solution")
     ops.reactions()
     moved = [ops.nodeDisp(tag)[:3] for tag in range(1, len(NODES) + 1)]
-    held = [ops.nodeReaction(tag)[:3] for tag in SUPPORTS]
+    grounds = range(len(NODES) + 1, len(NODES) + len(SPRINGS) + 1)
+    held = [ops.nodeReaction(tag)[:3] for tag in (*SUPPORTS, *grounds)]
     ops.remove("loadPattern", 1)
     ops.remove("timeSeries", 1)
     return {
@@ -98,7 +106,17 @@ def script(model: ExportModel, n: int) -> str:
     """Return the script of a mesh of three times n x n elements a facet."""
     mesh = divide_facets(model, n, middles=False)
     weight = model.material.unit_weight * model.volume
-    held = {node + 1: list(map(int, fixed)) for node, fixed in held_nodes(model, mesh).items()}
+    moved, turned, free = held_nodes(model, mesh), held_rotations(model, mesh), (False,) * 3
+    held = {
+        node + 1: [*map(int, moved.get(node, free)), *map(int, turned.get(node, free))]
+        for node in sorted({*moved, *turned})
+    }
+    springs = [
+        (node + 1, axis, value)
+        for node, stiffness in spring_nodes(model, mesh).items()
+        for axis, value in enumerate(stiffness, 1)
+        if value
+    ]
     lines = [
         f'"""{model.design} for OpenSees, by foldshell: kN, m; 3 x {n} x {n} elements a facet."""',
         "", "import json", "import sys", "", "import openseespy.opensees as ops", "",
@@ -108,7 +126,8 @@ def script(model: ExportModel, n: int) -> str:
         f"THICKNESS = {json.dumps([panel.thickness for panel in model.panels])}  # m, by panel",
         f"COMBINATIONS = {json.dumps({k: dict(v) for k, v in model.combinations.items()})}",
         f"NODES = {json.dumps(mesh.nodes.tolist())}",
-        f"SUPPORTS = {held!r}  # 1 where x, y, z are fixed",
+        f"SUPPORTS = {held!r}  # 1 where x, y, z and rotations about them are fixed",
+        f"SPRINGS = {springs!r}  # node, axis, kN/m",
         f"ELEMENTS = {json.dumps(_elements(model, mesh))}  # panel, four nodes",
         f"LOADS = {_loads(model, mesh)!r}  # kN",
     ]  # fmt: skip

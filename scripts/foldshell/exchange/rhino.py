@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 
 from foldshell.exchange.colours import ASSIGNMENTS, class_colours
-from foldshell.exchange.model import Crease, ExportModel, Panel, load_on_facets
+from foldshell.exchange.model import Crease, ExportModel, Panel, Support, load_on_facets
 from foldshell.exchange.options import ExportOptions, load_library
 from foldshell.files.errors import InputError
 from foldshell.files.whole import atomic_path, hash_data
@@ -76,9 +76,12 @@ def write_3dm(model: ExportModel, paths: tuple[Path, ...], options: ExportOption
         scene.add_line(ends, LAYERS[crease.assignment], _crease_name(model, crease),
                        _crease_text(model, crease))  # fmt: skip
     for support in model.supports:
-        held = "".join(axis for axis, fixed in zip("xyz", support.fixed, strict=True) if fixed)
+        text = _support_text(support)
         for ends in model.vertices[support.edges]:
-            scene.add_line(ends, "SUPPORTS", support.name, {"fixed": held})
+            scene.add_line(ends, "SUPPORTS", support.name, text)
+        for point in model.vertices[support.vertices]:
+            made = scene.attributes("SUPPORTS", support.name, text)
+            scene.file.Objects.AddPoint(scene.point(point), made)
     _add_loads(scene, model)
     _add_target(scene, model)
     _add_flat(scene, model)
@@ -86,6 +89,17 @@ def write_3dm(model: ExportModel, paths: tuple[Path, ...], options: ExportOption
     with atomic_path(paths[0]) as temporary:
         if not scene.file.Write(str(temporary), 8):
             raise InputError(f"{paths[0]}: Rhino's library could not write the file")
+
+
+def _support_text(support: Support) -> dict[str, str]:
+    """Return what is held along x, y, z, and clamps and springs where there are some."""
+    found = {"fixed": "".join(a for a, held in zip("xyz", support.fixed, strict=True) if held)}
+    if support.clamp:
+        found["clamp"] = "rotation about the edge"
+    if any(support.spring):
+        unit = "kN/m per m" if len(support.edges) else "kN/m"
+        found["spring"] = " ".join(f"{value:g}" for value in support.spring) + f" {unit}"
+    return found
 
 
 def hash_3dm(path: Path) -> str:

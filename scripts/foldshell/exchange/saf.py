@@ -10,6 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
+from foldshell.exchange.fe_supports import clamp_axes
 from foldshell.exchange.model import ExportModel, Panel
 from foldshell.exchange.options import ExportOptions
 from foldshell.exchange.sheets import write_workbook
@@ -17,6 +18,7 @@ from foldshell.loads.cases import DOWN, WEIGHT, SurfaceLoad
 
 GRAVITY = 9.80665
 VERSION = "2.2.0"
+FREE = (False, False, False)
 Rows = list[list[object]]
 
 
@@ -55,6 +57,7 @@ def write_saf(model: ExportModel, paths: tuple[Path, ...], options: ExportOption
         "StructuralPointConnection": _nodes(model),
         "StructuralSurfaceMember": _members(model, members),
         "StructuralEdgeConnection": _supports(model, members),
+        **_point_supports(model),
         "StructuralLoadGroup": _groups(),
         "StructuralLoadCase": _cases(model),
         "StructuralLoadCombination": _combinations(model),
@@ -129,12 +132,30 @@ def _supports(model: ExportModel, members: tuple[Member, ...]) -> Rows:
             for fixed, spring in zip(support.fixed, support.spring, strict=True)
         ]
         springs = [spring / 1000 if spring else "" for spring in support.spring]
-        kind = "Hinged" if all(support.fixed) else "Custom"
-        for pair in np.sort(support.edges, axis=1).tolist():
+        kind = "Hinged" if all(support.fixed) and not support.clamp else "Custom"
+        turns = clamp_axes(model, support) if support.clamp else [FREE] * len(support.edges)
+        for pair, turned in zip(np.sort(support.edges, axis=1).tolist(), turns, strict=True):
             member, edge = owners[tuple(pair)]
-            rows.append([f"S{len(rows) + 1}", kind, "On edge", member, edge, *words, "Free", "Free",
-                         "Free", *springs, "Global", "Relative", "From start", 0, 1])  # fmt: skip
+            rotations = ["Rigid" if held else "Free" for held in turned]
+            rows.append([f"S{len(rows) + 1}", kind, "On edge", member, edge, *words, *rotations,
+                         *springs, "Global", "Relative", "From start", 0, 1])  # fmt: skip
     return [head, *rows]
+
+
+def _point_supports(model: ExportModel) -> dict[str, Rows]:
+    """Return the sheet of supported vertices, none where edges alone are supported."""
+    head = ["Name", "Type", "Node", "ux", "uy", "uz", "fix", "fiy", "fiz", "Stiffness X [MN/m]",
+            "Stiffness Y [MN/m]", "Stiffness Z [MN/m]", "Coordinate system"]  # fmt: skip
+    rows: Rows = []
+    for support in model.supports:
+        pairs = list(zip(support.fixed, support.spring, strict=True))
+        words = ["Rigid" if held else ("Flexible" if k else "Free") for held, k in pairs]
+        springs = [spring / 1000 if spring else "" for spring in support.spring]
+        kind = "Hinged" if all(support.fixed) else "Custom"
+        for vertex in support.vertices.tolist():
+            rows.append([f"SN{len(rows) + 1}", kind, f"N{vertex + 1}", *words, "Free", "Free",
+                         "Free", *springs, "Global"])  # fmt: skip
+    return {"StructuralPointSupport": [head, *rows]} if rows else {}
 
 
 def _edges(members: tuple[Member, ...]) -> Iterator[tuple[tuple[int, int], tuple[str, int]]]:

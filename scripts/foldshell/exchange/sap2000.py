@@ -8,7 +8,8 @@ buckling case stands beside. In kN, m, C.
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 
-from foldshell.exchange.fe_mesh import QuadMesh, divide_facets, held_nodes
+from foldshell.exchange.fe_mesh import QuadMesh, divide_facets
+from foldshell.exchange.fe_supports import held_nodes, held_rotations, spring_nodes
 from foldshell.exchange.model import ExportModel
 from foldshell.exchange.options import ExportOptions
 from foldshell.files.errors import InputError
@@ -171,11 +172,21 @@ def _assign(name: str, factors: Mapping[str, float]) -> list[Row]:
 
 
 def _supports(model: ExportModel, mesh: QuadMesh) -> Iterator[tuple[str, list[Row]]]:
-    words = {True: "Yes", False: "No"}
+    words, free = {True: "Yes", False: "No"}, (False, False, False)
+    moved, turned = held_nodes(model, mesh), held_rotations(model, mesh)
     yield "JOINT RESTRAINT ASSIGNMENTS", [
-        {"Joint": node + 1, **{f"U{k}": words[bool(f)] for k, f in enumerate(fixed, 1)},
-         "R1": "No", "R2": "No", "R3": "No"} for node, fixed in held_nodes(model, mesh).items()
+        {"Joint": node + 1,
+         **{f"U{k}": words[bool(f)] for k, f in enumerate(moved.get(node, free), 1)},
+         **{f"R{k}": words[bool(f)] for k, f in enumerate(turned.get(node, free), 1)}}
+        for node in sorted({*moved, *turned})
     ]  # fmt: skip
+    springs = spring_nodes(model, mesh)
+    if springs:
+        yield "JOINT SPRING ASSIGNMENTS 1 - UNCOUPLED", [
+            {"Joint": node + 1, "CoordSys": "GLOBAL",
+             **{f"U{k}": value for k, value in enumerate(stiffness, 1)},
+             "R1": 0, "R2": 0, "R3": 0} for node, stiffness in springs.items()
+        ]  # fmt: skip
 
 
 def _area_loads(model: ExportModel, mesh: QuadMesh) -> Iterator[Row]:
