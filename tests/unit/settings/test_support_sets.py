@@ -54,7 +54,7 @@ def test_a_table_without_the_column_fixes_all(tmp_path):
         ("a\ta\tbox 0 0 1 nan\txyz\t\t\t\t", "'nan' is no plain number"),
         ("a\ta\tbox 1 0 0 1\txyz\t\t\t\t", "the box is empty"),
         ("a\ta\tbox 0 0 0 1 1 1\txyz\t\t\t\t", "add `& z low high`"),
-        ("a\ta\tpolygon 0 0, 2 1, 1 0, 0 1\txyz\t\t\t\t", "meet"),
+        ("a\ta\tpolygon 0 0, 3 2, 3 0, 0 1\txyz\t\t\t\t", "meet"),
         ("a\ta\tedges 1\txyz\t\t\t\t", "'1' is no edge"),
         ("a\ta\tedges 1-1\txyz\t\t\t\t", "'1-1' is no edge"),
         ("a\ta\tvertices\txyz\t\t\t\t", "no number follows"),
