@@ -3,7 +3,6 @@
 import functools
 import math
 
-from foldshell.settings.design import SURFACES
 from foldshell.settings.designs import select_designs
 from foldshell.engine.imports import write_content_list, write_library_list
 from foldshell.files.package_data import library_folder
@@ -68,18 +67,23 @@ def of_stage(stage):
     return lambda wildcards: known(wildcards.design)
 
 
-def surface_file(wildcards):
-    """Return the mesh file that is a design's target surface, if it is one; Snakemake would take a
-    brace in its name for a wildcard."""
-    surface = BY_NAME[wildcards.design].surface
-    return [] if surface in SURFACES or set("{}") & set(surface) else [surface]
+def files_of_design(wildcards):
+    """Return the files that a design is made of; Snakemake would take a brace in the name of one
+    for a wildcard."""
+    return [name for name in BY_NAME[wildcards.design].files if not set("{}") & set(name)]
 
 
-def surface_content(wildcards):
-    """Return a file whose name tells the content of a design's surface file, as an input beside it:
+def files_content(wildcards):
+    """Return a file whose name tells the content of the design's files, as an input beside them:
     the content decides whether a rule runs again, not the date."""
-    surface = BY_NAME[wildcards.design].surface
-    return [] if surface in SURFACES else [write_content_list([surface], ".snakemake/library")]
+    names = list(BY_NAME[wildcards.design].files)
+    return [write_content_list(names, ".snakemake/library")] if names else []
+
+
+def panels_of_file(wildcards):
+    """Return the folded sheet of a design whose panels are no grid, which lists them."""
+    design = BY_NAME[wildcards.design]
+    return [] if design.on_grid else [f"{RESULTS}/{design.name}/folded/folded.npz"]
 
 
 def subdivisions(wildcards):

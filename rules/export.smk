@@ -18,8 +18,8 @@ for FORMAT in FORMATS:
             classes=CLASSES["arrays"],
             pattern=rules.pattern.output.fold,
             design_vtu=rules.draw.output.vtu,
-            surface=surface_file,
-            content=surface_content,
+            files=files_of_design,
+            content=files_content,
             library=code_inputs("export"),
         output:
             # What jobs wait for comes first: it is written last.

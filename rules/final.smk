@@ -32,6 +32,7 @@ rule size:
         analyses=iterations,
         analysis_arrays=arrays_of(iterations),
         classes=[CLASSES["json"], CLASSES["arrays"]],
+        folded=panels_of_file,
         library=code_inputs("size"),
     output:
         **FINAL,

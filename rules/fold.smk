@@ -1,8 +1,8 @@
 rule fold:
     input:
         fold=rules.pattern.output.fold,
-        surface=surface_file,
-        content=surface_content,
+        files=files_of_design,
+        content=files_content,
         library=code_inputs("fold"),
     output:
         folded=f"{RESULTS}/{{design}}/folded/folded.npz",
@@ -18,7 +18,7 @@ rule fold:
     resources:
         mem_mb=memory_of("fold"),
     params:
-        **of_design("surface", "span_m", "height_m", "fold_mode"),
+        **of_design("surface", "span_m", "height_m", "fold_mode", "file_unit"),
         settings=of_stage("fold"),
     message:
         "{wildcards.design}: folding onto the target surface"

@@ -1,7 +1,7 @@
 rule pattern:
     input:
-        surface=surface_file,
-        content=surface_content,
+        files=files_of_design,
+        content=files_content,
         library=code_inputs("pattern"),
     output:
         fold=f"{RESULTS}/{{design}}/pattern/crease_pattern.fold",
@@ -16,7 +16,7 @@ rule pattern:
         "../envs/foldshell.yaml"
     params:
         **of_design("pattern", "surface", "span_m", "height_m", "zigzag", "strip"),
-        **of_design("rest_fold_angle_deg", "strip_grading"),
+        **of_design("rest_fold_angle_deg", "strip_grading", "folded", "file_unit"),
         sector_angle_deg=sector_angle_deg,
         settings=of_stage("drawings"),
     message:

@@ -4,6 +4,7 @@
 
 rule start:
     input:
+        folded=panels_of_file,
         library=code_inputs("start"),
     output:
         workbook=f"{LOOP}/00/thickness.xlsx",
@@ -28,6 +29,7 @@ checkpoint analyse:
         mesh=rules.mesh.output.mesh,
         workbook=f"{STEP}/thickness.xlsx",
         previous=previous_iteration(["analysis.json", "analysis.npz"]),
+        folded=panels_of_file,
         library=code_inputs("analyse"),
     output:
         json=f"{STEP}/analysis.json",
@@ -52,6 +54,7 @@ rule resize:
     input:
         analysis=previous_iteration(["analysis.json", "analysis.npz"]),
         memory=memory_before_last,
+        folded=panels_of_file,
         library=code_inputs("resize"),
     output:
         workbook=f"{STEP}/thickness.xlsx",

@@ -24,6 +24,7 @@ rule size:
     input:
         **{f"code_{name}": code_inputs(name) for name in LOOP_PARAMS},
         mesh=rules.mesh.output.mesh,
+        folded=panels_of_file,
         edits=edited_workbooks,
         library=code_inputs("whole_loop"),
     output:

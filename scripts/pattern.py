@@ -3,11 +3,13 @@
 from pathlib import Path
 
 from foldshell.engine.job import run_job
-from foldshell.files.errors import InputError
+from foldshell.files.errors import named_errors
 from foldshell.folding.targets import make_target, measure_turning
 from foldshell.pattern.design import design_sheet
-from foldshell.pattern.drawings import draw_pattern, write_dxf, write_svg
+from foldshell.pattern.drawings import draw_pattern, write_drawings
 from foldshell.pattern.fold_format import write_fold
+from foldshell.pattern.make_panels import make_panels, write_panel_pattern
+from foldshell.settings.design import GRID_PATTERNS, NONE
 from foldshell.settings.exports import Drawings
 from foldshell.settings.stage import Plain, read_stage
 
@@ -23,29 +25,26 @@ def main(
     zigzag: int,
     strip: int,
     sector_angle_deg: float,
+    folded: str = NONE,
+    file_unit: str = "m",
     dxf_path: str | Path | None = None,
     svg_path: str | Path | None = None,
     settings: Plain,
     **form: float,
 ) -> None:
-    """Write crease_pattern.fold: flat pattern, rest state and some folded states [m].
-
-    `form`: rest fold angle, grading, number of folded states; `dxf_path`, `svg_path`: drawings.
-    """
+    """Write crease_pattern.fold: flat pattern, rest state and some folded states [m]; a sheet that
+    is folded already as it stands. `form`: rest fold angle, grading, number of folded states."""
     style = read_stage(settings, Drawings).drawings
-    try:
-        target = make_target(surface, span_m, height_m)
+    with named_errors(design):
+        target = None if folded != NONE else make_target(surface, span_m, height_m, file_unit)
+        if pattern not in GRID_PATTERNS:
+            given = (zigzag, strip), sector_angle_deg
+            mesh = make_panels(pattern, folded, file_unit, target, *given)
+            return write_panel_pattern(mesh, fold_path, dxf_path, svg_path, design, style)
         lengths, form["turning"] = target.section_lengths(), measure_turning(target)
         sheet = design_sheet(pattern, lengths, zigzag, strip, sector_angle_deg, **form)
-    except InputError:
-        raise
-    except ValueError as error:
-        raise InputError(f"design {design}: {error}") from None
     drawing = draw_pattern(sheet.flat, sheet.grid, style.scale, f"{design}, crease pattern")
-    if dxf_path:
-        write_dxf(dxf_path, drawing, style.preset)
-    if svg_path:
-        write_svg(svg_path, drawing, style.preset)
+    write_drawings(drawing, dxf_path, svg_path, style.preset)
     write_fold(fold_path, sheet, design)
 
 

@@ -11,7 +11,7 @@ from foldshell.records.iteration import read_iteration
 from foldshell.settings.sizing import Sizing
 from foldshell.settings.stage import Plain, read_stage
 from foldshell.sizing.step import take_step
-from foldshell.workbook.panels import ThicknessTable, make_panel_grid
+from foldshell.workbook.panels import Paths, ThicknessTable, choose_panels
 from foldshell.workbook.thickness_summary import summarise_step
 from foldshell.workbook.write_thickness import write_thickness
 
@@ -26,6 +26,7 @@ def main(
     design: str,
     zigzag: int,
     strip: int,
+    folded: Paths = (),
     settings: Plain,
     previous_memory: str | Path | None = None,
 ) -> None:
@@ -35,15 +36,14 @@ def main(
     if not analysis.goes_on:
         raise InputError(f"{json_path}: verdict {analysis.verdict}: no step follows, start again")
     memory = read_typed_arrays(previous_memory, StepMemory) if previous_memory else None
-    following = take_step(analysis, arrays, memory, sizing)
-    new, old = following.thickness, arrays.thickness
-    used, grid = arrays.utilization(sizing.measure), make_panel_grid(zigzag, strip)
+    following, old = take_step(analysis, arrays, memory, sizing), arrays.thickness
+    new = following.thickness
+    grid, used = choose_panels(zigzag, strip, folded), arrays.utilization(sizing.measure)
     table = ThicknessTable(grid, new, old, used, new / old - 1, following.note)
     summary = summarise_step(design, analysis, sizing)
-    bounds = sizing.least_thickness, sizing.largest_thickness
     write_typed_arrays(memory_path, following.memory)
     with recorded_workbook(workbook_path, record_path, new) as temporary:
-        write_thickness(temporary, table, summary, *bounds, sizing.utilization_max)
+        write_thickness(temporary, table, summary, *sizing.bounds, sizing.utilization_max)
 
 
 if "snakemake" in globals():
@@ -54,6 +54,7 @@ if "snakemake" in globals():
             snakemake.output.memory,  # noqa: F821
             snakemake.output.record,  # noqa: F821
             design=snakemake.wildcards.design,  # noqa: F821
+            folded=snakemake.input.get("folded", ()),  # noqa: F821
             previous_memory=next(iter(snakemake.input.get("memory", ())), None),  # noqa: F821
             **snakemake.params,  # noqa: F821
         )

@@ -30,17 +30,16 @@ def main(
     *,
     design: Row,
     settings: Plain,
+    folded: Sequence[str | Path] = (),
 ) -> None:
     """Write histories, design.xlsx, panels of all iterations and the analysis that is delivered.
-    What is left behind the last is removed; edited workbooks of that stay in sizing/superseded.
-    `final_paths` are final.json, final.npz and iterations.npz."""
+    What is left behind the last is removed; edited workbooks of that stay in sizing/superseded."""
     one, given = Design.from_row(design), read_stage(settings, *ANALYSED)
     iterations = gather_iterations(json_paths, one.span, given, mesh_path)
     more = list_versions(PACKAGES), *read_classes(*classes_paths)
-    report = make_design_report(iterations, one, given, *more)
+    report = make_design_report(iterations, one, given, *more, folded)
     write_rows(csv_path, HistoryRow, iterations.history)
-    judged = report.verdict, report.utilization_max, report.measure
-    write_history(history_path, iterations.history, *judged)
+    write_history(history_path, iterations.history, *report.judged)
     write_design(design_path, report)
     write_final(*final_paths, iterations)
     remove_superseded(Path(csv_path).parent, len(json_paths))
@@ -56,5 +55,6 @@ if "snakemake" in globals():
             files.history,
             files.design,
             (files.final, files.arrays, files.panels),
+            folded=snakemake.input.get("folded", ()),  # noqa: F821
             **snakemake.params,  # noqa: F821
         )

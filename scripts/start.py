@@ -9,7 +9,7 @@ from foldshell.records.edits import recorded_workbook
 from foldshell.settings.sizing import Sizing
 from foldshell.settings.stage import Plain, read_stage
 from foldshell.sizing.rounding import round_thickness
-from foldshell.workbook.panels import ThicknessTable, make_panel_grid
+from foldshell.workbook.panels import Paths, ThicknessTable, choose_panels
 from foldshell.workbook.thickness_summary import summarise_start
 from foldshell.workbook.write_thickness import write_thickness
 
@@ -21,13 +21,14 @@ def main(
     design: str,
     zigzag: int,
     strip: int,
+    folded: Paths = (),
     settings: Plain,
     settings_hash: str,
 ) -> None:
     """Write sizing/00/thickness.xlsx with one thickness (m) for all panels."""
     sizing = read_stage(settings, Sizing).sizing
     least, largest = sizing.least_thickness, sizing.largest_thickness
-    grid = make_panel_grid(zigzag, strip)
+    grid = choose_panels(zigzag, strip, folded)
     table = ThicknessTable(grid, np.full(len(grid.panel), sizing.start_thickness))
     summary = summarise_start(design, least, largest, settings_hash)
     written = round_thickness(table.thickness)
@@ -41,5 +42,6 @@ if "snakemake" in globals():
             snakemake.output.workbook,  # noqa: F821
             snakemake.output.record,  # noqa: F821
             design=snakemake.wildcards.design,  # noqa: F821
+            folded=snakemake.input.get("folded", ()),  # noqa: F821
             **snakemake.params,  # noqa: F821
         )

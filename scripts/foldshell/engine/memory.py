@@ -5,7 +5,7 @@ all forks have in common counts for each of them.
 """
 
 import os
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from types import MappingProxyType
 
@@ -22,6 +22,8 @@ MB_AND_PER_NODE: Mapping[str, tuple[float, float]] = MappingProxyType({
 })  # fmt: skip
 """By rule: memory (MB) without a mesh, and for each node of the mesh that designs are sized on."""
 
+BYTES_A_PANEL = 60
+"""Of a file of a folded sheet or a pattern; those in binary have fewer."""
 SHARE = 0.9
 """Of the memory that is free at the start, for all jobs and the processes that are kept."""
 KEPT_SHARE = 0.2
@@ -39,6 +41,13 @@ def count_nodes(zigzag_count: int, strip_count: int, subdivisions: int) -> int:
     inner = splits * order - 1
     vertices, facets = zigzag_count * strip_count, 2 * (zigzag_count - 1) * (strip_count - 1)
     return vertices + (vertices + facets - 1) * inner + facets * inner * (inner - 1) // 2
+
+
+def guess_counts(files: Iterable[str]) -> tuple[int, int]:
+    """Return counts of polylines of a sheet with as many panels as files of that size may hold."""
+    panels = sum(Path(name).stat().st_size for name in files) / BYTES_A_PANEL
+    count = 3 + round(panels**0.5)
+    return count, count
 
 
 def estimate_memory(rule: str, nodes: int) -> int:

@@ -1,6 +1,7 @@
 """How far a study is: one line per iteration, a table of its designs, what is left."""
 
 import statistics
+import sys
 from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
@@ -36,6 +37,11 @@ class DesignProgress:
     def done(self) -> bool:
         """True once a verdict has ended the loop."""
         return self.last is not None and not self.last.goes_on
+
+
+def print_line(text: str) -> None:
+    """Print a line for people at once, so that lines of jobs do not mix."""
+    sys.stderr.write(text + "\n")
 
 
 def describe_iteration(design: str, analysis: AnalysisRecord) -> str:

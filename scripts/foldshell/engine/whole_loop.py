@@ -18,19 +18,20 @@ ITERATIONS_MAX = 100
 
 @dataclass(frozen=True)
 class LoopPlan:
-    """The jobs of a loop: design, its folder `sizing`, mesh.npz, and by rule the list of its
-    library files and its parameters."""
+    """The jobs of a loop: design, its folder `sizing`, mesh.npz, by rule the list of its library
+    files and its parameters, and folded.npz where panels are no grid."""
 
     design: str
     folder: str
     mesh: str
     code: Mapping[str, str]
     params: Mapping[str, Plain]
+    folded: tuple[str, ...] = ()
 
     def start(self) -> Task:
         """Return the job that writes the first workbook."""
         files = Named(workbook=self._step(0, WORKBOOK), record=self._step(0, "written.json"))
-        return self._task("start", Named(), files)
+        return self._task("start", Named(folded=self.folded), files)
 
     def analyse(self, number: int) -> Task:
         """Return the job of an analysis."""
@@ -38,6 +39,7 @@ class LoopPlan:
             mesh=self.mesh,
             workbook=self._step(number, WORKBOOK),
             previous=self._analysed(number - 1),
+            folded=self.folded,
         )
         files = Named(
             json=self._step(number, "analysis.json"), arrays=self._step(number, "analysis.npz")
@@ -47,7 +49,7 @@ class LoopPlan:
     def resize(self, number: int) -> Task:
         """Return the job that writes the workbook of an iteration from the analysis before it."""
         memory = [self._step(number - 1, "memory.npz")] if number > 1 else []
-        inputs = Named(analysis=self._analysed(number - 1), memory=memory)
+        inputs = Named(analysis=self._analysed(number - 1), memory=memory, folded=self.folded)
         files = Named(
             workbook=self._step(number, WORKBOOK),
             memory=self._step(number, "memory.npz"),
@@ -64,7 +66,9 @@ class LoopPlan:
     def size(self, last: int) -> Task:
         """Return the job that gathers history and final state."""
         classes = [f"{self.folder}/classes.{kind}" for kind in ("json", "npz")]
-        inputs = Named(mesh=self.mesh, **self._all_analyses(last), classes=classes)
+        inputs = Named(
+            mesh=self.mesh, **self._all_analyses(last), classes=classes, folded=self.folded
+        )
         files = Named(
             final=f"{self.folder}/final.json",
             arrays=f"{self.folder}/final.npz",

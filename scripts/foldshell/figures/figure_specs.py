@@ -124,8 +124,12 @@ def lines_before(view: DesignView) -> Lines:
 
 
 def edge_lines(view: DesignView) -> tuple[tuple[Lines, ...], tuple[Key, ...]]:
-    """Return zig-zag edges and strip edges in colours of their own, wide, and their keys."""
+    """Return zig-zag edges and strip edges in colours of their own, wide, and their keys; of a
+    sheet without them its border."""
     folded, vertices = view.state.folded, view.state.shell.vertices
+    if folded.zigzag is None:
+        border = vertices[folded.edges[folded.edge_kind == 0]]
+        return (Lines(border, ZIGZAG, EDGE_WIDTH, 1.2 * LIFT),), (Key("solid", "border", ZIGZAG),)
     lines, keys = [], []
     for kind, other, words, colour in (("zigzag", "strip", "zig-zag edge", ZIGZAG),
                                        ("strip", "zigzag", "strip edge", STRIP)):  # fmt: skip

@@ -33,6 +33,17 @@ def _make_plain(message: str) -> str:
 
 
 @contextmanager
+def named_errors(design: str) -> Iterator[None]:
+    """Make an `InputError` that names the design of each plain `ValueError` of the library."""
+    try:
+        yield
+    except InputError:
+        raise
+    except ValueError as error:
+        raise InputError(f"design {design}: {error}") from None
+
+
+@contextmanager
 def user_errors() -> Iterator[None]:
     """Print an `InputError`, a full disk or a lack of memory as one line on stderr; exit code 1."""
     try:

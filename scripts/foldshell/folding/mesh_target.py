@@ -184,12 +184,12 @@ def _find_weights(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
     return np.column_stack([1 - second - third, second, third])
 
 
-def read_mesh_target(path: str | Path, span: float) -> MeshTarget:
+def read_mesh_target(path: str | Path, span: float, file_unit: str = "m") -> MeshTarget:
     """Read a target surface from a mesh file; `origin` says where the middle of its plan stands.
 
     Raises InputError for a file that cannot be read, and for a surface that is closed, folded
     over in plan, with holes or gaps in the plan, or of another scale than the span.
     """
-    surface = read_surface(path, span)
+    surface = read_surface(path, span, file_unit)
     origin = (*surface.middle, 0.0)
     return MeshTarget(Path(path).stem, span, surface.vertices - origin, surface.triangles, origin)

@@ -8,15 +8,17 @@ from foldshell.folding.quadric import Quadric, make_quadric
 from foldshell.settings.design import SURFACES
 
 
-def make_target(surface: str, span_m: float, height_m: float) -> Quadric | MeshTarget:
+def make_target(
+    surface: str, span_m: float, height_m: float, file_unit: str = "m"
+) -> Quadric | MeshTarget:
     """Build the target surface over a square plan of side span [m].
 
-    `surface` is one of SURFACES or a mesh file in metres, whose heights are its own.
+    `surface` is one of SURFACES or a mesh file in `file_unit`, whose heights are its own.
     """
     if surface not in SURFACES and is_mesh_file(surface):
         if not span_m > 0:
             raise ValueError(f"span {span_m}: must be positive")
-        return read_mesh_target(surface, float(span_m))
+        return read_mesh_target(surface, float(span_m), file_unit)
     return make_quadric(surface, span_m, height_m)
 
 

@@ -20,16 +20,19 @@ PRESETS = {
         "outline": ("BORDER", 7, "#000000"),
         "mountain": ("MOUNTAIN", 1, "#ff0000"),
         "valley": ("VALLEY", 5, "#0000ff"),
+        "flat": ("FLAT", 2, "#ffff00"),
     },
     "paper": {
         "outline": ("BORDER", 7, "#000000"),
         "mountain": ("MOUNTAIN", 3, "#008000"),
         "valley": ("VALLEY", 1, "#ff0000"),
+        "flat": ("FLAT", 8, "#808080"),
     },
     "laser": {
         "outline": ("CUT", 1, "#ff0000"),
         "mountain": ("MOUNTAIN", 5, "#0000ff"),
         "valley": ("VALLEY", 3, "#00ff00"),
+        "flat": ("FLAT", 8, "#808080"),
     },
 }
 SCALES = tuple(n * 10**k for k in range(5) for n in (1, 2, 5))
@@ -45,13 +48,15 @@ MARGIN_MM, TITLE_MM = 20.0, 40.0
 class Drawing:
     """Lines of a flat crease pattern [mm]: closed outline (N, 2), creases (M, 2, 2) by kind.
 
-    `scale` is the drawing's length over the true one; `title` names the sheet.
+    `scale` is the drawing's length over the true one; `title` names the sheet; `holes` are further
+    closed lines (N, 2), of openings.
     """
 
     outline: np.ndarray
     creases: dict[str, np.ndarray]
     scale: float = 1.0
     title: str = ""
+    holes: tuple[np.ndarray, ...] = ()
 
     @property
     def low(self) -> np.ndarray:
@@ -117,8 +122,19 @@ def write_dxf(path: str | Path, drawing: Drawing, preset: str = "fold") -> None:
         for start, end in lines.tolist():
             space.add_line(start, end, dxfattribs={"layer": PRESETS[preset][kind][0]})
     layer = PRESETS[preset]["outline"][0]
-    space.add_lwpolyline(drawing.outline.tolist(), close=True, dxfattribs={"layer": layer})
+    for ring in (drawing.outline, *drawing.holes):
+        space.add_lwpolyline(ring.tolist(), close=True, dxfattribs={"layer": layer})
     save_dxf(path, document, drawing.low, drawing.high, drawing.legend)
+
+
+def write_drawings(
+    drawing: Drawing, dxf: str | Path | None, svg: str | Path | None, preset: str
+) -> None:
+    """Write a drawing in both formats, each where it has a path."""
+    if dxf:
+        write_dxf(dxf, drawing, preset)
+    if svg:
+        write_svg(svg, drawing, preset)
 
 
 def new_dxf(layers: Iterable[tuple]) -> Any:
@@ -199,10 +215,9 @@ def write_svg(path: str | Path, drawing: Drawing, preset: str = "fold") -> None:
         )
         parts.append(f'<g id="{layer}"{dash}><path stroke="{colour}" d="{steps}"/></g>')
     layer, _, colour = PRESETS[preset]["outline"]
-    ring = " ".join(
-        f"{x:.6f},{height - y:.6f}" for x, y in (drawing.outline - drawing.low).tolist()
-    )
-    parts.append(f'<g id="{layer}"><polygon stroke="{colour}" points="{ring}"/></g>')
+    for corners in (drawing.outline, *drawing.holes):
+        ring = " ".join(f"{x:.6f},{height - y:.6f}" for x, y in (corners - drawing.low).tolist())
+        parts.append(f'<g id="{layer}"><polygon stroke="{colour}" points="{ring}"/></g>')
     parts.append("</svg>\n")
     with atomic_path(path) as temporary:
         temporary.write_text("\n".join(parts), encoding="utf-8")

@@ -7,6 +7,7 @@ import numpy as np
 
 from foldshell.files.errors import InputError
 from foldshell.files.strict_json import read_json_object
+from foldshell.files.units import agree_on_unit, find_fold_unit
 from foldshell.files.whole import Json
 from foldshell.pattern.panel_graph import (
     Ragged,
@@ -16,11 +17,8 @@ from foldshell.pattern.panel_graph import (
     walk_faces,
 )
 from foldshell.pattern.panel_mesh import ASSIGNMENTS, PanelMesh
-from foldshell.pattern.units import agree_on_unit
 
 LEVEL = 1e-6  # of the size: a state whose heights differ less is flat
-_UNITS = {"m": "m", "cm": "cm", "mm": "mm", "in": "inch"}
-_SIZELESS = (None, "unit", "")
 
 
 def read_any_fold(path: str | Path, file_unit: str | None = None) -> PanelMesh:
@@ -33,7 +31,7 @@ def read_any_fold(path: str | Path, file_unit: str | None = None) -> PanelMesh:
     """
     data = read_json_object(path, "a FOLD file")
     frames = _list_frames(path, data)
-    unit = agree_on_unit(path, _find_unit(path, data), file_unit)
+    unit = agree_on_unit(path, find_fold_unit(path, data), file_unit)
     states = [_read_state(path, frame, k) for k, frame in enumerate(frames)]
     known = [(k, state) for k, state in enumerate(states) if state is not None]
     if not known:
@@ -77,15 +75,6 @@ def _list_frames(path: str | Path, data: Json) -> list[Json]:
             )
         whole.append({**whole[parent], **frame})
     return whole
-
-
-def _find_unit(path: str | Path, data: Json) -> str | None:
-    unit = data.get("frame_unit")
-    if unit in _SIZELESS:
-        return None
-    if not isinstance(unit, str) or unit not in _UNITS:
-        raise InputError(f"{path}: frame_unit: {unit!r}: one of {', '.join(_UNITS)} is allowed")
-    return _UNITS[unit]
 
 
 def _read_state(path: str | Path, frame: Json, k: int) -> np.ndarray | None:

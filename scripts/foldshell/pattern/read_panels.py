@@ -7,9 +7,11 @@ from pathlib import Path
 import numpy as np
 
 from foldshell.files.errors import InputError
+from foldshell.files.formats import PATTERN_FORMATS
 from foldshell.files.meshes.library import SAMPLED
 from foldshell.files.meshes.model import count
 from foldshell.files.meshes.read import FORMATS, read_mesh
+from foldshell.files.units import FACTORS, agree_on_unit, find_factor, name_unit
 from foldshell.pattern.line_graph import build_pattern
 from foldshell.pattern.panel_graph import find_sides
 from foldshell.pattern.panel_mesh import (
@@ -22,10 +24,8 @@ from foldshell.pattern.panel_repair import repair_panels, say_place
 from foldshell.pattern.read_any_fold import read_any_fold
 from foldshell.pattern.read_dxf import read_dxf_lines
 from foldshell.pattern.read_svg import read_svg_lines
-from foldshell.pattern.units import FACTORS, WORDS, agree_on_unit
 
-PATTERNS = (".fold", ".svg", ".dxf")
-PANEL_FORMATS = (*PATTERNS, *FORMATS)
+PANEL_FORMATS = (*PATTERN_FORMATS, *FORMATS)
 """Suffixes of all files of patterns and folded sheets."""
 OBTUSE, TOO_OBTUSE = math.radians(145), math.radians(155)
 """Largest angle of a facet: from the first on buckling factors err, above the second grossly."""
@@ -43,7 +43,7 @@ def read_panels(path: str | Path, file_unit: str | None = None) -> PanelMesh:
     if suffix == ".fold":
         mesh = read_any_fold(path, file_unit)
         return mesh if mesh.folded is None else _check_facets(path, mesh)
-    if suffix in PATTERNS:
+    if suffix in PATTERN_FORMATS:
         lines = read_svg_lines(path) if suffix == ".svg" else read_dxf_lines(path)
         unit = agree_on_unit(path, lines.unit, file_unit)
         try:
@@ -55,8 +55,8 @@ def read_panels(path: str | Path, file_unit: str | None = None) -> PanelMesh:
 
 def _read_folded(path: str | Path, file_unit: str | None) -> PanelMesh:
     """A folded sheet from a mesh file: its polygons are the panels."""
-    factor = agree_on_unit(path, None, file_unit)
-    given = read_mesh(path, WORDS[file_unit or "m"])
+    given = read_mesh(path, name_unit(file_unit))
+    factor = find_factor(given.unit, file_unit)
     if SAMPLED in given.notes:
         raise InputError(f"{path}: {SAMPLED}: a folded sheet has planar faces or a mesh")
     try:

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from foldshell.records.entry import COUNT, entries, entry
-from foldshell.settings.design import DesignColumns, Row
+from foldshell.settings.design import NONE, DesignColumns, Row
 from foldshell.settings.field import list_settings
 
 _KNOWN = {known.key: known for known in list_settings(DesignColumns).values()}
@@ -35,15 +35,19 @@ class DesignRow:
     edge_beam_thickness_m: float | None = _column(
         "edge_beam_thickness_m", form="general", shown="mm", default=None
     )
+    folded: str | None = _column("folded", default=None)
+    file_unit: str | None = _column("file_unit", default=None)
 
     @property
     def panels(self) -> int:
-        """Panels between the polylines."""
-        return (self.zigzag - 1) * (self.strip - 1)
+        """Panels between the polylines, 0 where there are none."""
+        return max(self.zigzag - 1, 0) * max(self.strip - 1, 0)
 
 
 def make_design_row(columns: Row) -> DesignRow:
-    """Return the row of plain columns; sizes of an edge beam of 0, which is none, become None."""
+    """Return the row of plain columns; sizes of an edge beam of 0, which is none, become None, and
+    so does a file that there is none of."""
     known = {key: columns[key] for key in entries(DesignRow) if key in columns}
     sizes = ("edge_beam_depth_m", "edge_beam_thickness_m")
-    return DesignRow(**known | {key: columns.get(key) or None for key in sizes})
+    none = {key: None for key in ("folded", "file_unit") if columns.get(key) in (NONE, "m")}
+    return DesignRow(**known | {key: columns.get(key) or None for key in sizes} | none)

@@ -8,23 +8,26 @@ from foldshell.records.entry import COUNT, elapsed, entry
 
 @dataclass(frozen=True, kw_only=True)
 class QualityMeasures:
-    """Measures of a folded sheet; ratios are non-dimensional."""
+    """Measures of a folded sheet; ratios are non-dimensional.
 
-    rms_over_span: float = entry(
+    Those against a target, or against the flat sheet, are null where there is none.
+    """
+
+    rms_over_span: float | None = entry(
         "rms distance of the attracted vertices to the target, over the span",
         "-", "rms distance to the target / span",
     )  # fmt: skip
-    max_over_span: float = entry(
+    max_over_span: float | None = entry(
         "largest distance of an attracted vertex to the target, over the span",
         "-", "largest distance to the target / span",
     )  # fmt: skip
-    edge_strain_max: float = entry(
+    edge_strain_max: float | None = entry(
         "largest strain of an edge, folded against flat",
         "-",
         "largest strain of an edge",
         shown="%",
     )
-    edge_strain_rms: float = entry(
+    edge_strain_rms: float | None = entry(
         "rms strain of all edges", "-", "rms strain of the edges", shown="%"
     )
     angle_defect_max_rad: float = entry(
@@ -49,7 +52,7 @@ class QualityMeasures:
     self_intersections: int = entry(
         "pairs of facets that cut each other", COUNT, "self-intersections"
     )
-    plan_coverage: float = entry(
+    plan_coverage: float | None = entry(
         "share of the square plan that lies under the sheet",
         "-", "share of the plan that is covered",
     )  # fmt: skip
@@ -91,5 +94,8 @@ class QualityRecord(QualityMeasures):
         "beyond its border, and the surface is taken to go on along its tangent",
         "m", "reach beyond the surface's border", left_out=True,
     )  # fmt: skip
+    notes: tuple[str, ...] | None = entry(
+        "what of the file of the sheet was mended or is to be known", left_out=True
+    )
     iterations: int = entry("iterations of the solver", COUNT)
     seconds: float | None = elapsed()

@@ -2,7 +2,8 @@
 
 Axes: V vertices, P panels, T facets; N nodes, E elements, L nodes of an element, G edges of facets,
 J nodes along one; S supported edges of facets, H supported nodes, B panels of an edge beam; R rows
-of a set of supports, Q vertices that they hold, W warnings of them. In
+of a set of supports, Q vertices that they hold, W warnings of them; of any sheet D panels and one
+more, C corners of all panels, X sides of panels. In
 mesh.npz vertices, facets and panels of an edge beam stand after those of the sheet.
 """
 
@@ -18,17 +19,34 @@ class FoldedArrays:
     """The arrays of folded.npz."""
 
     vertices: np.ndarray = array("V, 3", "m", "vertices of the folded sheet", required=True)
-    quads: np.ndarray = array("P, 4", "", "vertices of each panel", required=True)
     facets: np.ndarray = array(
-        "T, 3", "", "vertices of each facet, two a panel in the order of panels", required=True
+        "T, 3", "", "vertices of each facet, in the order of panels", required=True
     )
-    zigzag: np.ndarray = array("V", "", "zig-zag polyline of each vertex, from 0", required=True)
-    strip: np.ndarray = array("V", "", "strip polyline of each vertex, from 0", required=True)
-    flat: np.ndarray = array("V, 3", "m", "vertices of the flat sheet", required=True)
     planarity: np.ndarray = array(
-        "P", "-", "distance between a panel's diagonals, over their mean length", required=True
+        "P", "-", "distance between a panel's diagonals, over their mean length; of one of more "
+        "corners their largest distance to the mean plane, over the longest diagonal",
+        required=True,
+    )  # fmt: skip
+    quads: np.ndarray | None = array(
+        "P, 4", "", "vertices of each panel of a crease grid, which has two facets a panel"
     )
-    strain: np.ndarray = array("T", "-", "largest strain of a facet's edges", required=True)
+    zigzag: np.ndarray | None = array("V", "", "zig-zag polyline of each vertex, from 0")
+    strip: np.ndarray | None = array("V", "", "strip polyline of each vertex, from 0")
+    facet_panel: np.ndarray | None = array("T", "", "panel of each facet, where it is no grid")
+    panel_starts: np.ndarray | None = array(
+        "D", "", "first corner of each panel in panel_corners, and their number"
+    )
+    panel_corners: np.ndarray | None = array("C", "", "vertices of all panels, one after the other")
+    edges: np.ndarray | None = array("X, 2", "", "vertices of each side of a panel")
+    edge_kind: np.ndarray | None = array(
+        "X", "", "how each side folds: 0 border, 1 mountain, 2 valley, 3 flat, 4 not assigned"
+    )
+    flat: np.ndarray | None = array("V, 3", "m", "vertices of the flat sheet, where there is one")
+    strain: np.ndarray | None = array(
+        "T", "-", "largest strain of a facet's edges, where the flat sheet is known"
+    )
+    panel_row: np.ndarray | None = array("P", "", "row of each panel, where the pattern has rows")
+    panel_place: np.ndarray | None = array("P", "", "place of each panel in its row")
 
 
 @dataclass(frozen=True, kw_only=True)

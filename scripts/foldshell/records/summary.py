@@ -80,3 +80,5 @@ class SummaryRow:
         "panels whose thickness a person changed in some iteration; empty for none",
         COUNT, "panels changed by a person", default=None,
     )  # fmt: skip
+    folded: str | None = _design("folded")
+    file_unit: str | None = _design("file_unit")

@@ -6,6 +6,7 @@ from pathlib import Path
 import numpy as np
 
 from foldshell.files.errors import InputError
+from foldshell.pattern.folded_panels import list_panels
 from foldshell.records.analysis_arrays import AnalysisArrays
 from foldshell.records.arrays import read_typed_arrays
 from foldshell.records.sheet_arrays import FoldedArrays
@@ -37,7 +38,8 @@ def find_panel(used: np.ndarray | None, folded: FoldedArrays) -> PanelPlace | No
     if used is None or not np.isfinite(used).any():
         return None
     panel = int(np.nanargmax(used))
-    return PanelPlace(panel, tuple(folded.vertices[folded.quads[panel]].mean(axis=0).tolist()))
+    middle = folded.vertices[list_panels(folded)[panel]].mean(axis=0)
+    return PanelPlace(panel, tuple(middle.tolist()))
 
 
 def read_panels(final: str | Path, folded: str | Path) -> dict[str, PanelPlace]:

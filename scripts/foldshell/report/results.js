@@ -82,8 +82,8 @@ function loadsOf(factors, arrays) { // kN on each panel
 
 function thinOut(many, places, vectors, arrays) { // of many panels every second one each way
   if (!many) return [places, vectors];
-  const kept = [...arrays.panel_zigzag.keys()].filter((p) =>
-    arrays.panel_zigzag[p] % 2 === 0 && arrays.panel_strip[p] % 2 === 0);
+  const kept = [...arrays.panel_planarity.keys()].filter((p) => !arrays.panel_zigzag ? p % 4 === 0
+    : arrays.panel_zigzag[p] % 2 === 0 && arrays.panel_strip[p] % 2 === 0);
   const pick = (values) => Float32Array.from(kept.flatMap((p) => [...values.slice(3 * p, 3 * p + 3)]));
   return [pick(places), pick(vectors)];
 }

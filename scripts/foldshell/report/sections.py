@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
+from foldshell.files.units import name_unit
 from foldshell.records.analysis import AnalysisRecord, Criteria, read_analysis
 from foldshell.records.classes import ClassesRecord
 from foldshell.records.comparison import ComparisonRecord, read_comparison
@@ -22,7 +23,7 @@ from foldshell.report.reading import say_both
 from foldshell.report.section import Box, Section, judge_met
 from foldshell.results.comparisons import UNFOLDED
 from foldshell.results.design_view import count_analyses
-from foldshell.settings.design import Design
+from foldshell.settings.design import NONE, Design
 from foldshell.settings.support_row import SUPPORTS
 from foldshell.workbook.styles import GOOD_VERDICTS
 
@@ -112,9 +113,16 @@ def describe_design(design: Design) -> str:
     tags = ", ".join(design.tags or ("none",))
     laid = design.pattern in UNFOLDED
     made = "laid out, not folded" if laid else f"folded in mode {design.fold_mode}"
+    size = f"span {design.span:g} m, height {design.height:g} m"
+    end = f"supports {design.support}, {made}; tags {tags}"
+    if design.folded != NONE:
+        unit = f"coordinates in {name_unit(design.file_unit) or 'the unit that it declares'}"
+        return f"sheet folded already, from {design.folded}, {unit}; {size}, {end}"
+    if not design.on_grid:
+        return f"{design.pattern} pattern, surface {design.surface}, {size}, {end}"
     return (
-        f"{design.pattern} pattern, surface {design.surface}, span {design.span:g} m, "
-        f"height {design.height:g} m, {design.zigzag} zig-zags × {design.strip} strips, "
+        f"{design.pattern} pattern, surface {design.surface}, {size}, "
+        f"{design.zigzag} zig-zags × {design.strip} strips, "
         f"{_name_supports(design)}, {made}; tags {tags}"
     )
 

@@ -106,7 +106,7 @@ def _geometry(design: Design, final: AnalysisRecord, view: DesignView) -> Table:
         ("pattern, surface", f"{design.pattern}, {design.surface}"),
         ("span, height of the target [m]", f"{design.span:g}, {design.height:g}"),
         ("extents x, y, z [m]", ", ".join(f"{value:.2f}" for value in size)),
-        ("zig-zags x strips", f"{design.zigzag} x {design.strip}"),
+        *[("zig-zags x strips", f"{design.zigzag} x {design.strip}")] * design.on_grid,
         ("panels", len(thickness)),
         ("supported edges", describe_supports(design)),
         ("thickness, least to largest [mm]", f"{thickness.min():.1f} to {thickness.max():.1f}"),

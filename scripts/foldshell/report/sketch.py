@@ -86,6 +86,8 @@ def _find_edges(view: DesignView, frame: Frame) -> Mapping[str, tuple[str, bool]
     """Return the border polylines in plan as SVG paths, and whether they are supported."""
     folded, vertices = view.state.folded, view.state.shell.vertices
     held = {tuple(sorted(pair)) for pair in view.state.shell.support_pairs.tolist()}
+    if folded.zigzag is None:
+        return _find_border(view, frame, held)
     found = {}
     for kind in ("zigzag", "strip"):
         index = getattr(folded, kind)
@@ -99,3 +101,17 @@ def _find_edges(view: DesignView, frame: Frame) -> Mapping[str, tuple[str, bool]
             paths.append(_write_path(frame.place(vertices[pairs][:, :, :2])))
         found[kind] = ("".join(paths), supported)
     return found
+
+
+def _find_border(
+    view: DesignView, frame: Frame, held: set[tuple[int, int]]
+) -> Mapping[str, tuple[str, bool]]:
+    """The border of a sheet that is no grid, what is supported of it apart from what is not."""
+    folded, vertices = view.state.folded, view.state.shell.vertices
+    border = folded.edges[folded.edge_kind == 0]
+    on = np.array([tuple(sorted(pair)) in held for pair in border.tolist()], dtype=bool)
+    return {
+        kind: (_write_path(frame.place(vertices[border[chosen]][:, :, :2])), supported)
+        for kind, chosen, supported in (("held", on, True), ("free", ~on, False))
+        if chosen.any()
+    }

@@ -28,9 +28,8 @@ function drawLegend(field) {
 
 function describePanel(panel, arrays) {
   if (panel < 0) return "Click a panel to read its values.";
-  const beam = panel >= arrays.panel_zigzag.length;
-  const words = beam ? ["edge beam"] : [`panel ${panel}`, `zigzag ${arrays.panel_zigzag[panel]}`,
-    `strip ${arrays.panel_strip[panel]}`];
+  const beam = panel >= arrays.panel_planarity.length;
+  const words = beam ? ["edge beam"] : [`panel ${panel}`, ...placePanel(panel, arrays)];
   words.push(`thickness ${(1000 * arrays.panel_thickness[panel]).toFixed(1)} mm`);
   if (arrays.panel_utilization)
     words.push(`mean utilization ${arrays.panel_utilization[panel].toFixed(2)}`);
@@ -38,6 +37,13 @@ function describePanel(panel, arrays) {
   words.push(`planarity ${(100 * arrays.panel_planarity[panel]).toFixed(2)} %`);
   if (arrays.panel_class) words.push(`class ${arrays.panel_class[panel]}`);
   return words.join(" · ");
+}
+
+function placePanel(panel, arrays) { // zig-zag and strip, or where it is
+  if (arrays.panel_zigzag)
+    return [`zigzag ${arrays.panel_zigzag[panel]}`, `strip ${arrays.panel_strip[panel]}`];
+  const middle = arrays.panel_middle.slice(3 * panel, 3 * panel + 3);
+  return [...middle].map((value, k) => `${"xyz"[k]} ${value.toFixed(2)} m`);
 }
 
 const SAME = { used: "utilization", utilization: "utilization", down: "displacement",
@@ -111,7 +117,7 @@ class App {
     byId("reactions").disabled = single < 0;
     byId("loads").disabled = !factors;
     byId("loads-words").textContent = number >= 0 ? facts.cases[number][1] : "";
-    const many = arrays.panel_zigzag.length > 400;
+    const many = arrays.panel_planarity.length > 400;
     if (number >= 0 || single >= 0) byId("loads-words").textContent
       += many && byId("loads").checked ? " Arrows stand on every fourth panel." : "";
     this.renderer.setArrows("loads", factors && byId("loads").checked

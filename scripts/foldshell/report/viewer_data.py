@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from foldshell.files.whole import Json
+from foldshell.pattern.folded_panels import measure_middles
 from foldshell.records.arrays import list_arrays
 from foldshell.results.colour_scales import (
     RATIO_RANGE_MIN,
@@ -84,7 +85,8 @@ def make_viewer_data(view: DesignView, grid: Grid | None = None) -> ViewerData:
 
     Arrays: nodes (N, 3) m; triangles (C, 3); panel (C,); mountain, valley, flat, border (K, n)
     nodes along creases; supports (S,) nodes; of each panel thickness (m), utilization, planarity,
-    zigzag and strip; and those that `facts["fields"]` and `facts["shapes"]` name.
+    zigzag and strip, or the mean (P, 3) m of the corners where there are none; and those that
+    `facts["fields"]` and `facts["shapes"]` name.
     """
     state, grid = view.state, grid or make_grid(view)
     arrays = {"nodes": _bring_near(grid.nodes), "triangles": grid.triangles, "panel": grid.panel}
@@ -107,13 +109,16 @@ def _panel_values(state: DesignState) -> dict[str, np.ndarray]:
 
     Thickness and utilization are (P + B,) with an edge beam's panels.
     """
-    quads = state.folded.quads
+    folded = state.folded
     values = {
         "panel_thickness": state.panel_thickness,
-        "panel_planarity": state.folded.planarity,
-        "panel_zigzag": state.folded.zigzag[quads].min(axis=1),
-        "panel_strip": state.folded.strip[quads].min(axis=1),
+        "panel_planarity": folded.planarity,
     }
+    if folded.zigzag is None:
+        values["panel_middle"] = measure_middles(folded)
+    else:
+        values["panel_zigzag"] = folded.zigzag[folded.quads].min(axis=1)
+        values["panel_strip"] = folded.strip[folded.quads].min(axis=1)
     if state.utilization is not None:
         values["panel_utilization"] = state.panel_utilization
     if state.classes is not None:

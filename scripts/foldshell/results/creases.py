@@ -4,8 +4,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foldshell.pattern.angles import measure_folds
-from foldshell.pattern.grid import build_grid
+from foldshell.pattern.angles import measure_folds, measure_hinges
+from foldshell.pattern.grid import build_grid, find_hinges
 from foldshell.records.sheet_arrays import FoldedArrays
 from foldshell.shell.mesh import ShellMesh
 
@@ -31,15 +31,27 @@ def find_creases(cells: ShellMesh, folded: FoldedArrays, creased: bool = True) -
     cells : result mesh over the facets of the folded sheet
     creased : False where a smooth surface bends at its panels' borders, which are no creases
     """
-    grid = build_grid(int(folded.zigzag.max()) + 1, int(folded.strip.max()) + 1)
-    fold = measure_folds(folded.vertices, grid)
-    edge = slice(0, grid.neutral.start)
-    nodes = cells.pair_nodes[_find_pairs(cells, grid.edges[edge])]
-    border = grid.assignments[edge] == "B"
+    if folded.zigzag is None:
+        edges, kinds = folded.edges, folded.edge_kind
+        fold, border = _measure_sides(folded), kinds == 0
+    else:
+        grid = build_grid(int(folded.zigzag.max()) + 1, int(folded.strip.max()) + 1)
+        edge = slice(0, grid.neutral.start)
+        edges, fold = grid.edges[edge], measure_folds(folded.vertices, grid)[edge]
+        border = grid.assignments[edge] == "B"
+    nodes = cells.pair_nodes[_find_pairs(cells, edges)]
     inner = ~border & creased
-    mountain, valley = inner & (fold[edge] < -FOLD_MIN), inner & (fold[edge] > FOLD_MIN)
+    mountain, valley = inner & (fold < -FOLD_MIN), inner & (fold > FOLD_MIN)
     flat = ~border & ~mountain & ~valley
     return Creases(nodes[mountain], nodes[valley], nodes[flat], nodes[border])
+
+
+def _measure_sides(folded: FoldedArrays) -> np.ndarray:
+    """Fold (X,) rad of each side of a panel, 0 on the border and where three panels meet."""
+    hinges = find_hinges(folded.facets, folded.edges)
+    fold = np.zeros(len(folded.edges))
+    fold[hinges.edges] = measure_hinges(folded.vertices, hinges.vertices)
+    return fold
 
 
 def _find_pairs(cells: ShellMesh, pairs: np.ndarray) -> np.ndarray:

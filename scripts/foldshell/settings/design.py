@@ -3,6 +3,8 @@
 import dataclasses
 from dataclasses import dataclass
 
+from foldshell.files.formats import FOLDED_FORMATS, PATTERN_FORMATS
+from foldshell.files.units import FACTORS
 from foldshell.settings.field import Group, list_settings, setting, settings_group
 from foldshell.settings.load_table import PAPER
 from foldshell.settings.support_row import SUPPORTS, PlainRow, SupportRow
@@ -13,7 +15,14 @@ Row = dict[str, str | int | float]
 SURFACES = ("paraboloid", "hypar", "hypar_twist", "arch", "arch_strip")
 """Target surfaces that are known by name; others are mesh files."""
 
-PATTERNS = ("miura", "arc_miura", "smooth", "flat")
+GRID_PATTERNS = ("miura", "arc_miura", "smooth", "flat")
+"""Patterns of zig-zags and strips."""
+PATTERNS = GRID_PATTERNS
+"""Crease patterns that are known by name; others are files."""
+NONE = "none"
+"""Stands for a file that is not given, and for the surface of a sheet that is folded already."""
+FOLDED = "folded"
+"""Pattern of a design whose folded sheet is a file."""
 SILENT_AT_ZERO = ("sector_angle_deg", "rest_fold_angle_deg", "strip_grading")
 """Columns that say nothing where they are 0, as if they were not there."""
 FOLD_MODES = ("elastic", "isometric", "exact", "rigid")
@@ -24,13 +33,14 @@ class DesignColumns(Group):
     """Values of the columns that the table of designs leaves out."""
 
     pattern: str = setting(
-        "miura", choices=PATTERNS,
-        meaning="Folded Miura sheet, its derivative with arcs for zig-zags, smooth target surface, "
-        "or the unfolded flat sheet.",
+        "miura",
+        meaning=f"Crease pattern by name ({', '.join(PATTERNS)}) or a file of one "
+        f"({', '.join(PATTERN_FORMATS)}). smooth is the target surface itself, flat the unfolded "
+        "Miura sheet.",
     )  # fmt: skip
     surface: str = setting(
         "paraboloid",
-        meaning=f"Target surface by name ({', '.join(SURFACES)}) or a mesh file in metres.",
+        meaning=f"Target surface by name ({', '.join(SURFACES)}) or a mesh file in `file_unit`.",
     )
     span: float = setting(
         28, unit="m", minimum=0.1, maximum=500,
@@ -87,12 +97,24 @@ class DesignColumns(Group):
         meaning="How much wider the strips of a Miura sheet are at the borders than in the middle, "
         "in mean widths; below 0 they are narrower there.",
     )  # fmt: skip
+    folded: str = setting(
+        NONE,
+        meaning=f"A sheet that is folded already, from a file ({', '.join(FOLDED_FORMATS)}), in "
+        "place of pattern and surface; span_m is then the shorter side of its plan where the cell "
+        "is empty.",
+    )  # fmt: skip
+    file_unit: str = setting(
+        "m", choices=tuple(FACTORS),
+        meaning="Unit of the coordinates in the files of a design; a file that declares another "
+        "one is refused. Where the cell is empty a unit that the file declares is taken.",
+    )  # fmt: skip
 
 
 @dataclass(frozen=True)
 class Design(DesignColumns):
-    """One design of the study; zigzag and strip are counts of polylines, both sizes of the edge
-    beam are 0 where there is none; `support_rows` are those of the set that `support` names."""
+    """One design of the study; zigzag and strip are counts of polylines, 0 where the pattern is a
+    file, both sizes of the edge beam are 0 where there is none; `support_rows` are those of the set
+    that `support` names."""
 
     name: str = dataclasses.field(kw_only=True)
     tags: tuple[str, ...] = dataclasses.field(kw_only=True, default=())
@@ -100,8 +122,22 @@ class Design(DesignColumns):
 
     @property
     def panels(self) -> int:
-        """Number of panels, (zigzag - 1)(strip - 1)."""
-        return (self.zigzag - 1) * (self.strip - 1)
+        """Number of panels, (zigzag - 1)(strip - 1); 0 where it is not known before a file is read.
+
+        Patterns that are no grid of zig-zags and strips have some more or fewer.
+        """
+        return max(self.zigzag - 1, 0) * max(self.strip - 1, 0)
+
+    @property
+    def on_grid(self) -> bool:
+        """Whether panels are those of zig-zags and strips."""
+        return self.pattern in GRID_PATTERNS
+
+    @property
+    def files(self) -> tuple[str, ...]:
+        """The files that the design is made of: surface, pattern, folded sheet."""
+        named = ((self.surface, SURFACES), (self.pattern, (*PATTERNS, FOLDED)), (self.folded, ()))
+        return tuple(name for name, known in named if name not in (NONE, *known))
 
     @property
     def holding(self) -> str | list[PlainRow]:
@@ -115,20 +151,23 @@ class Design(DesignColumns):
 
     def decide(self) -> Row:
         """Return the columns that decide its final state: all but name and tags, and but those of
-        its pattern that say nothing."""
+        its pattern and files that say nothing."""
         row = self.to_row()
         silent = {key for key in SILENT_AT_ZERO if not row[key]}
+        silent |= set() if self.files else {"folded", "file_unit"}
         return {key: row[key] for key in row if key not in {"design", "tags"} | silent}
 
     @classmethod
     def from_row(cls, row: Row) -> "Design":
-        """Return the design of such a row, which may leave out what is silent at 0."""
-        row = dict.fromkeys(SILENT_AT_ZERO, 0.0) | row
-        values = {name: row[known.key] for name, known in _COLUMNS.items()}
+        """Return the design of such a row, which may leave out what is silent at 0, and columns
+        that a former version did not have."""
+        values = {name: row[k.key] for name, k in _COLUMNS.items() if k.key in row}
         tags = tuple(filter(None, row["tags"].split(",")))
         return cls(name=row["design"], tags=tags, **values)
 
 
+FILE_COLUMNS = ("surface", "pattern", "folded")
+"""Columns that may name a file."""
 _COLUMNS = list_settings(DesignColumns)
 COLUMNS = ("design", *(known.key for known in _COLUMNS.values()), "tags")
 """Columns of designs.tsv."""

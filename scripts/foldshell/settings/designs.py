@@ -7,10 +7,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from foldshell.files.errors import InputError
-from foldshell.files.meshes.read import FORMATS, is_mesh_file
 from foldshell.settings.check import Reader, parse_text
 from foldshell.settings.consistency import check_thickness
-from foldshell.settings.design import COLUMNS, SILENT_AT_ZERO, SURFACES, Design, DesignColumns
+from foldshell.settings.design import COLUMNS, SILENT_AT_ZERO, Design, DesignColumns
+from foldshell.settings.design_files import check_pattern, check_surface, settle_files
 from foldshell.settings.field import list_settings
 from foldshell.settings.nearest import hint_nearest
 from foldshell.settings.places import RESERVED
@@ -74,10 +74,11 @@ def _make_design(
     words = dict.fromkeys(tag.strip() for tag in tags.split(",") if tag.strip())
     columns = vars(settings.defaults) | given
     design = Design(name=cells["design"], tags=tuple(words), **columns)
-    _check_surface(design.surface, where)
+    design = settle_files(design, given, where)
     _check_edge_beam(design, where)
     _check_miura(design, settings, where)
-    check_thickness(design, settings.sizing, where)
+    if design.panels:
+        check_thickness(design, settings.sizing, where)
     if design.panels > settings.limits.panels_max:
         raise InputError(
             f"{where}: zigzag x strip: {design.zigzag} x {design.strip} lines are "
@@ -108,20 +109,6 @@ def _check_name(name: str, where: str) -> None:
         raise InputError(f"{where}: design: {name!r}: {NAME_ALLOWED} is allowed")
     if name in RESERVED:
         raise InputError(f"{where}: design: this name is reserved, choose another one")
-
-
-def _check_surface(surface: str, where: str) -> None:
-    if surface in SURFACES:
-        return
-    if is_mesh_file(surface):
-        if not Path(surface).exists():
-            raise InputError(f"{where}: surface: {surface!r}: no such file")
-        return
-    hint = hint_nearest(surface.casefold(), SURFACES)
-    raise InputError(
-        f"{where}: surface: {surface!r}: one of {', '.join(SURFACES)} or a mesh file "
-        f"({', '.join(FORMATS)}) is allowed{hint}"
-    )
 
 
 def _check_edge_beam(design: Design, where: str) -> None:
@@ -172,5 +159,6 @@ def _check_unique(designs: list[Design], lines: list[int], path: Path) -> None:
 
 
 def check_defaults(settings: Settings, source: str) -> None:
-    """Raise `InputError` if the default surface cannot be used."""
-    _check_surface(settings.defaults.surface, f"{source}: defaults")
+    """Raise `InputError` if the default pattern or surface cannot be used."""
+    check_pattern(settings.defaults.pattern, f"{source}: defaults")
+    check_surface(settings.defaults.surface, f"{source}: defaults")

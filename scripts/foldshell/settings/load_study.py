@@ -8,10 +8,11 @@ from pathlib import Path
 import numpy as np
 
 from foldshell.files.errors import InputError
+from foldshell.files.meshes.extent import measure_extent
 from foldshell.files.meshes.surface import read_surface
 from foldshell.settings.check import Reader, parse_group
 from foldshell.settings.config_file import read_config
-from foldshell.settings.design import SURFACES, Design
+from foldshell.settings.design import NONE, SURFACES, Design
 from foldshell.settings.designs import check_defaults, read_designs
 from foldshell.settings.load_sets import check_loads, find_load_sets, list_cases, note_idle_loads
 from foldshell.settings.make import make_settings
@@ -50,6 +51,7 @@ def load_study(
     check_loads(designs, settings, str(settings.designs), source)
     notes += note_idle_loads(settings, designs, source)
     designs = measure_surface_files(designs, str(settings.designs), notes)
+    designs = measure_folded_files(designs, str(settings.designs))
     for note in dict.fromkeys(notes):
         say(note)
     return settings, designs
@@ -61,11 +63,11 @@ def measure_surface_files(designs: Iterable[Design], source: str, notes: list[st
     `notes` gathers what of a file was left out. Raises `InputError` for a mesh file that cannot be
     the target of its design. Each file is read once for each span, whatever the number of designs.
     """
-    heights: dict[tuple[str, float], float] = {}
+    heights: dict[tuple[str, float, str], float] = {}
     found = []
     for design in designs:
-        key = design.surface, design.span
-        if design.surface not in SURFACES and key not in heights:
+        key = design.surface, design.span, design.file_unit
+        if design.surface not in (*SURFACES, NONE) and key not in heights:
             try:
                 surface = read_surface(*key)
             except InputError as error:
@@ -73,4 +75,23 @@ def measure_surface_files(designs: Iterable[Design], source: str, notes: list[st
             heights[key] = float(f"{np.ptp(surface.vertices[:, 2]):.12g}")
             notes += [f"{design.surface}: {note}" for note in surface.notes]
         found.append(replace(design, height=heights.get(key, design.height)))
+    return found
+
+
+def measure_folded_files(designs: Iterable[Design], source: str) -> list[Design]:
+    """Return the designs, those of a folded sheet with span and height of the file where no cell
+    gives them, m: the shorter side of its plan and its rise.
+
+    Raises `InputError` for a file that cannot be read.
+    """
+    found = []
+    for design in designs:
+        if design.folded != NONE and not (design.span and design.height):
+            try:
+                size = measure_extent(design.folded, design.file_unit)
+            except InputError as error:
+                raise InputError(f"{source}: design {design.name!r}: folded: {error}") from None
+            span, height = (float(f"{value:.12g}") for value in (size[:2].min(), size[2]))
+            design = replace(design, span=design.span or span, height=design.height or height)
+        found.append(design)
     return found

@@ -86,3 +86,8 @@ class Sizing(Group):
         4, unit="classes", minimum=1, maximum=50, stages=("size", "study"),
         meaning="Number of thickness classes for fabrication.",
     )  # fmt: skip
+
+    @property
+    def bounds(self) -> tuple[float, float]:
+        """Least and largest thickness, m."""
+        return self.least_thickness, self.largest_thickness

@@ -6,7 +6,7 @@ from foldshell.settings.analysis import Analysis
 from foldshell.settings.archive import Archive
 from foldshell.settings.codes import Codes
 from foldshell.settings.crosscheck import Crosscheck
-from foldshell.settings.design import SURFACES, Design
+from foldshell.settings.design import FILE_COLUMNS, Design
 from foldshell.settings.exports import Drawings, Exports
 from foldshell.settings.field import Plain, list_groups
 from foldshell.settings.fold import Fold, Pattern
@@ -74,13 +74,12 @@ def choose_subdivisions(settings: Settings, design: Design) -> int:
 def hash_decisions(settings: Settings, design: Design) -> str:
     """Return 12 hexadecimal digits of the SHA-256 of all that decides the final state of a design.
 
-    These are its columns but name and tags, the content of a surface that is a mesh file, and the
-    settings of `DECIDING`. A thickness that a person edits is added by `hash_edit` where it is
-    analysed. Other settings (cross-check, classes, pictures, jobs) change no final state.
+    These are its columns but name and tags, the content of its files, and the settings of
+    `DECIDING`. A thickness that a person edits is added by `hash_edit` where it is analysed. Other
+    settings (cross-check, classes, pictures, jobs) change no final state.
     """
     row = {key: value for key, value in design.decide().items() if key not in NOT_DECIDING}
-    if design.surface not in SURFACES:
-        row["surface"] = hash_file(design.surface)
+    row |= {key: hash_file(row[key]) for key in FILE_COLUMNS if row.get(key) in design.files}
     row["support"] = design.holding
     groups = {stage: stage_parameters(settings, stage, design) for stage in DECIDING}
     return hash_data({"design": row, "settings": groups})[:DIGITS]

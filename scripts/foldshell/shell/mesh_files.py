@@ -21,7 +21,12 @@ from foldshell.shell.mesh import ShellMesh, build_mesh, edge_polyline_nodes
 from foldshell.shell.reference import lagrange_basis, lattice_points
 from foldshell.shell.select import HeldSheet
 from foldshell.shell.support_rows import HeldRows, resolve_rows
-from foldshell.shell.supports import find_borders, find_support, supported_pairs
+from foldshell.shell.supports import (
+    WHOLE_BORDER,
+    find_borders,
+    find_support,
+    supported_pairs,
+)
 
 LABELS = ("zigzag", "strip")
 
@@ -48,12 +53,14 @@ def mesh_folded_sheet(
     vertices, facets = folded["vertices"], folded["facets"]
     rows = None if isinstance(support, str) else resolve_rows(_held_sheet(folded), support)
     pairs = _pin_borders(folded, support) if rows is None else rows.to_arrays()["support_pairs"]
+    facet_panel = _list_facet_panels(folded)
     fixed = {}
     if edge_beam is not None:
         edges = free_edges(facets, pairs)
         vertices, facets = hang_edge_beam_panels(vertices, facets, edges, edge_beam.depth)
         fixed["fixed_thickness"] = np.full(len(edges), edge_beam.thickness)
-    facet_panel = np.arange(len(facets)) // 2
+        beams = facet_panel.max() + 1 + np.arange(2 * len(edges)) // 2
+        facet_panel = np.concatenate([facet_panel, beams])
     mesh = build_mesh(vertices, facets, facet_panel, subdivisions, order)
     held = _list_borders(mesh, folded, pairs) if rows is None else _list_rows(mesh, rows)
     return {
@@ -69,21 +76,40 @@ def mesh_folded_sheet(
 def _held_sheet(folded: Mapping[str, np.ndarray]) -> HeldSheet:
     facets = folded["facets"]
     labels = {name: folded[name] for name in LABELS if name in folded}
-    return HeldSheet(folded["vertices"], facets, np.arange(len(facets)) // 2, labels)
+    return HeldSheet(folded["vertices"], facets, _list_facet_panels(folded), labels)
+
+
+def _list_facet_panels(folded: Mapping[str, np.ndarray]) -> np.ndarray:
+    """Return the panel (F,) of each facet: of a grid two facets are one."""
+    return folded.get("facet_panel", np.arange(len(folded["facets"])) // 2)
 
 
 def _pin_borders(folded: Mapping[str, np.ndarray], support: str) -> np.ndarray:
-    pairs = facet_edges(folded["facets"])
-    return supported_pairs(pairs, folded["zigzag"], folded["strip"], find_support(support))
+    """Return supported facet edges (K, 2) by a word of the table.
+
+    A sheet without zig-zags and strips has one border: all edges of one facet.
+    """
+    facets, chosen = folded["facets"], find_support(support)
+    if "zigzag" in folded:
+        return supported_pairs(facet_edges(facets), folded["zigzag"], folded["strip"], chosen)
+    if len(chosen.where) < 2:
+        raise ValueError(
+            f"support {support}: the sheet has no zig-zags and strips: all, or a set of supports, "
+            "is allowed"
+        )
+    return np.sort(free_edges(facets, np.empty((0, 2), dtype=np.int64)), axis=1)
 
 
 def _list_borders(
     mesh: ShellMesh, folded: Mapping[str, np.ndarray], pairs: np.ndarray
 ) -> dict[str, np.ndarray]:
     """Return what mesh.npz holds of pinned borders."""
+    border = np.full(len(pairs), WHOLE_BORDER)
+    if "zigzag" in folded:
+        border = find_borders(pairs, folded["zigzag"], folded["strip"])
     return {
         "support_pairs": pairs,
-        "support_border": find_borders(pairs, folded["zigzag"], folded["strip"]),
+        "support_border": border,
         "supported_nodes": edge_polyline_nodes(mesh, pairs),
     }
 

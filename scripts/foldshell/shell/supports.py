@@ -41,8 +41,12 @@ def find_support(name: str) -> Support:
     return SUPPORT_SETS[name]
 
 
-BORDERS = ("first zig-zag edge", "last zig-zag edge", "first strip edge", "last strip edge")
-"""Names of the border polylines, each a supported edge of its own where it is held."""
+BORDERS = (
+    "first zig-zag edge", "last zig-zag edge", "first strip edge", "last strip edge", "border",
+)  # fmt: skip
+"""Names of the border polylines, each a supported edge of its own where it is held; the last one is
+all of the border of a sheet that has no zig-zags and strips."""
+WHOLE_BORDER = len(BORDERS) - 1
 
 
 def supported_pairs(

@@ -48,6 +48,11 @@ class DesignReport:
     utilization_max: float = 1.0
     measure: str = "panel_mean"
 
+    @property
+    def judged(self) -> tuple[Sequence[Line], float, str]:
+        """Verdict, largest utilization allowed and the measure that it holds for."""
+        return self.verdict, self.utilization_max, self.measure
+
 
 def write_design(path: str | Path, report: DesignReport) -> None:
     """Write `design.xlsx`: sheets summary, panels, history, charts, loads and notes."""
@@ -82,8 +87,15 @@ def _add_summary(book: Any, styles: Styles, report: DesignReport) -> None:
 
 def _add_panels(book: Any, styles: Styles, report: DesignReport) -> None:
     grid = report.grid
-    columns = [*_PANEL_COLUMNS, Column(f"utilization_{report.measure}", "-", "decimal", 14.0)]
-    values = [grid.panel, grid.zigzag_index, grid.strip_index, report.thickness, report.utilization]
+    about = grid.columns
+    columns = [
+        Column("panel", "-", "integer", 10.0),
+        *(Column(name, unit, style, 10.0) for name, unit, style, _ in about),
+        Column("thickness_m", "m", "metre", 14.0),
+        Column(f"utilization_{report.measure}", "-", "decimal", 14.0),
+    ]
+    values = [grid.panel, *(one[-1] for one in about), report.thickness, report.utilization]
+    place = 1 + len(about)
     if report.thickness_class is not None:
         columns.append(Column("class", "-", "integer", 10.0))
         values.append(report.thickness_class)
@@ -92,17 +104,9 @@ def _add_panels(book: Any, styles: Styles, report: DesignReport) -> None:
     write_table(sheet, styles, 0, columns, rows)
     last = len(rows) + 1
     sheet.autofilter(1, 0, last, len(values) - 1)
-    mark_above(sheet, styles, (2, 4, last, 4), report.utilization_max)
+    mark_above(sheet, styles, (2, place + 1, last, place + 1), report.utilization_max)
     scale = {"type": "2_color_scale", "min_color": "#F8FAFC", "max_color": "#93C5FD"}
-    sheet.conditional_format(2, 3, last, 3, scale)
-
-
-_PANEL_COLUMNS = [
-    Column("panel", "-", "integer", 10.0),
-    Column("zigzag", "-", "integer", 10.0),
-    Column("strip", "-", "integer", 10.0),
-    Column("thickness_m", "m", "metre", 14.0),
-]
+    sheet.conditional_format(2, place, last, place, scale)
 
 
 def _add_loads(book: Any, styles: Styles, report: DesignReport) -> None:

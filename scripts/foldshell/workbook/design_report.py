@@ -16,7 +16,7 @@ from foldshell.results.history import collect_edited_panels
 from foldshell.settings.design import Design
 from foldshell.settings.stage import StageSettings
 from foldshell.workbook.design import DesignReport
-from foldshell.workbook.panels import make_panel_grid
+from foldshell.workbook.panels import Paths, choose_panels
 from foldshell.workbook.styles import Line, make_lines
 
 SOURCES = (
@@ -53,8 +53,12 @@ def make_design_report(
     versions: Mapping[str, str],
     grouped: ClassesRecord,
     grouped_arrays: ClassesArrays,
+    folded: Paths = (),
 ) -> DesignReport:
-    """Put the delivered analysis, the panels, the history and the settings together."""
+    """Put the delivered analysis, the panels, the history and the settings together.
+
+    `folded` names folded.npz, where the panels are no grid.
+    """
     last, sizing = iterations.final, settings.sizing
     return DesignReport(
         title=f"Design {design.name}",
@@ -72,7 +76,7 @@ def make_design_report(
             Line("settings hash", last.settings_hash),
         ],
         criteria=last.criteria,
-        grid=make_panel_grid(design.zigzag, design.strip),
+        grid=choose_panels(design.zigzag, design.strip, folded),
         thickness=iterations.thickness,
         utilization=iterations.utilization,
         thickness_class=grouped_arrays.panel_class,

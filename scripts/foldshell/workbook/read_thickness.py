@@ -13,7 +13,6 @@ from foldshell.workbook.package import open_package
 from foldshell.workbook.panels import FloatArray, PanelGrid
 
 SHEET = "thickness"
-UNITS = {"panel": "-", "zigzag": "-", "strip": "-", "thickness": "m"}
 _NUMBER = re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]{1,3})?")
 _HEADER_ROWS = 200
 # Days since 1900 of the years 2000 to 2099: `3/4` typed into a number cell becomes 46085.
@@ -35,8 +34,9 @@ def read_thickness(path: str | Path, grid: PanelGrid, least: float, largest: flo
         raise InputError(f"{path}: sheet {SHEET!r} is missing{hint}")
     rows = read_cells(package, SHEET, sheets[SHEET], grid.panel.size)
     place = f"{path}: sheet {SHEET}"
-    header_row, columns = _find_header(rows, place)
-    _check_units(rows, header_row, columns, place)
+    units = {"panel": "-", **dict.fromkeys(grid.indices, "-"), "thickness": "m"}
+    header_row, columns = _find_header(rows, units, place)
+    _check_units(rows, header_row, columns, units, place)
     thickness = np.full(grid.panel.size, np.nan)
     seen: dict[int, Cell] = {}
     for row in sorted(row for row in rows if row > header_row + 1):
@@ -55,7 +55,7 @@ def read_thickness(path: str | Path, grid: PanelGrid, least: float, largest: flo
     return round_thickness(thickness)
 
 
-def _find_header(rows: Rows, place: str) -> tuple[int, dict[str, int]]:
+def _find_header(rows: Rows, units: dict[str, str], place: str) -> tuple[int, dict[str, int]]:
     """Return the row whose texts name both a panel and a thickness column, and its columns."""
     for row in sorted(rows)[:_HEADER_ROWS]:
         texts = {
@@ -70,13 +70,15 @@ def _find_header(rows: Rows, place: str) -> tuple[int, dict[str, int]]:
             if text in columns:
                 reference = rows[row][column].reference
                 raise InputError(f"{place}: cell {reference}: {text!r}: the column stands twice")
-            if text in UNITS:
+            if text in units:
                 columns[text] = column
         return row, columns
     raise InputError(f"{place}: no header row: one with the columns 'panel' and 'thickness' is due")
 
 
-def _check_units(rows: Rows, header_row: int, columns: dict[str, int], place: str) -> None:
+def _check_units(
+    rows: Rows, header_row: int, columns: dict[str, int], units: dict[str, str], place: str
+) -> None:
     cell = rows.get(header_row + 1, {}).get(columns["thickness"])
     if cell is None or cell.kind != "text":
         raise InputError(
@@ -86,10 +88,10 @@ def _check_units(rows: Rows, header_row: int, columns: dict[str, int], place: st
     for name, column in columns.items():
         unit = rows[header_row + 1].get(column)
         text = "" if unit is None else str(unit.value).strip().strip("[]")
-        if text != UNITS[name] and (name == "thickness" or text):
+        if text != units[name] and (name == "thickness" or text):
             reference = "" if unit is None else f"cell {unit.reference}: "
             raise InputError(
-                f"{place}: {reference}{text!r}: the unit {UNITS[name]!r} is due for {name}"
+                f"{place}: {reference}{text!r}: the unit {units[name]!r} is due for {name}"
             )
 
 
@@ -117,7 +119,7 @@ def _read_panel(
 
 def _check_indices(cells: dict[str, Cell | None], panel: int, grid: PanelGrid, place: str) -> None:
     """Refuse a row whose indices belong to another panel: a column was moved or sorted alone."""
-    for name, index in (("zigzag", grid.zigzag_index), ("strip", grid.strip_index)):
+    for name, index in grid.indices.items():
         cell, due = cells.get(name), int(index[panel])
         if cell is not None and to_number(cell) != due:
             raise InputError(

@@ -19,12 +19,8 @@ from foldshell.workbook.styles import (
     write_value,
 )
 
-COLUMNS = [
-    ("panel", "-", "integer", 9.0),
-    ("zigzag", "-", "integer", 9.0),
-    ("strip", "-", "integer", 9.0),
-    ("thickness", "m", "input", 12.0),
-]
+PANEL = ("panel", "-", "integer", 9.0)
+THICKNESS = ("thickness", "m", "input", 12.0)
 RESULT_COLUMNS = [
     ("previous", "m", "metre", 12.0),
     ("utilization", "-", "decimal", 12.0),
@@ -53,7 +49,7 @@ def write_thickness(
     """
     thickness = round_thickness(table.thickness)
     inside = np.isfinite(thickness) & (thickness >= least) & (thickness <= largest)
-    if thickness.shape != table.grid.zigzag_index.shape or not inside.all():
+    if thickness.shape != table.grid.panel.shape or not inside.all():
         raise ValueError(f"one thickness per panel from {least} to {largest} m is due")
     with create_workbook(path, "Thickness of the panels") as (book, styles):
         sheet = add_sheet(book, "summary", landscape=False)
@@ -64,18 +60,15 @@ def write_thickness(
         row = write_lines(sheet, styles, 2, summary)
         sheet.merge_range(row + 1, 0, row + 3, 2, _HELP, styles["wrap"])
         _write_panels(add_sheet(book, "thickness"), styles, table, thickness)
-        _mark_input(book, styles, thickness.size, least, largest, utilization_max)
+        place = 1 + len(table.grid.columns)
+        _mark_input(book, styles, (thickness.size, place), least, largest, utilization_max)
 
 
 def _write_panels(sheet: Any, styles: Styles, table: ThicknessTable, thickness: FloatArray) -> None:
-    values: list[Any] = [
-        table.grid.panel,
-        table.grid.zigzag_index,
-        table.grid.strip_index,
-        thickness,
-    ]
+    about = table.grid.columns
+    values: list[Any] = [table.grid.panel, *(column[-1] for column in about), thickness]
     results = [table.previous, table.utilization, table.change, table.note]
-    columns = list(COLUMNS)
+    columns = [PANEL, *((name, unit, style, 9.0) for name, unit, style, _ in about), THICKNESS]
     if any(result is not None for result in results):
         columns += RESULT_COLUMNS
         values += [[None] * thickness.size if result is None else result for result in results]
@@ -88,8 +81,15 @@ def _write_panels(sheet: Any, styles: Styles, table: ThicknessTable, thickness: 
 
 
 def _mark_input(
-    book: Any, styles: Styles, count: int, least: float, largest: float, limit: float
+    book: Any,
+    styles: Styles,
+    size: tuple[int, int],
+    least: float,
+    largest: float,
+    limit: float,
 ) -> None:
+    """Bound the cells of thicknesses, `size` rows and column; mark utilization above its limit."""
+    count, column = size
     sheet = book.get_worksheet_by_name("thickness")
     allowed = f"a number in m from {least:g} to {largest:g}"
     rule = {
@@ -102,5 +102,5 @@ def _mark_input(
         "error_title": "Thickness",
         "error_message": f"Only {allowed} is allowed.",
     }
-    sheet.data_validation(2, 3, count + 1, 3, rule)
-    mark_above(sheet, styles, (2, 5, count + 1, 5), limit)
+    sheet.data_validation(2, column, count + 1, column, rule)
+    mark_above(sheet, styles, (2, column + 2, count + 1, column + 2), limit)

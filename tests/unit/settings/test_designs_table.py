@@ -178,7 +178,7 @@ def test_columns_that_say_nothing_change_no_hash(tmp_path):
 
 def cell(column: str, value: str) -> str:
     cells = GOOD.split("\t")
-    cells[COLUMNS.index(column)] = value
+    cells[HEADER.split("\t").index(column)] = value
     return f"{HEADER}\n" + "\t".join(cells) + "\n"
 
 

@@ -5,6 +5,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -23,7 +24,7 @@ SECONDS = 120
 
 
 def read_by_library(path: str | Path, unit: str = "metres") -> Mesh:
-    """Read a .vtk, .vtu, .vtp, .msh or .3dm file; a model of Rhino must be in `unit`.
+    """Read a .vtk, .vtu, .vtp, .msh or .3dm file; a model of Rhino must be in `unit`, if any.
 
     Raises `MeshError`, also where the reader crashes, and what to type where the library for
     Rhino's files is missing.
@@ -47,7 +48,9 @@ def read_by_library(path: str | Path, unit: str = "metres") -> Mesh:
         with np.load(out, allow_pickle=False) as arrays:
             vertices, sizes, corners = (arrays[k] for k in ("vertices", "sizes", "corners"))
             notes = (SAMPLED,) if "sampled" in arrays else ()
-    return make_mesh(vertices, sizes, corners, vertices.dtype == np.float32, "", notes)
+            declared = str(arrays["unit"]) if "unit" in arrays else ""
+    mesh = make_mesh(vertices, sizes, corners, vertices.dtype == np.float32, "", notes)
+    return replace(mesh, unit=declared)
 
 
 def _run(command: list[str]) -> tuple[int, str]:

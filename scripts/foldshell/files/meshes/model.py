@@ -15,7 +15,7 @@ class Mesh:
     """Vertices (V, 3) and polygons: number k has the corners `corners[starts[k]:starts[k + 1]]`.
 
     `single` tells that coordinates were stored in single precision, `comments` what the file
-    says about itself, `notes` what was left out of it.
+    says about itself, `notes` what was left out of it, `unit` the one that it declares, in words.
     """
 
     vertices: np.ndarray
@@ -24,6 +24,7 @@ class Mesh:
     single: bool = False
     comments: str = ""
     notes: tuple[str, ...] = ()
+    unit: str = ""
 
     @property
     def polygons(self) -> int:

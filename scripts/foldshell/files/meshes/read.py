@@ -2,6 +2,7 @@
 
 import re
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 from foldshell.files.errors import InputError
@@ -50,7 +51,8 @@ def is_mesh_file(name: str | Path) -> bool:
 def read_mesh(path: str | Path, unit: str = "metres") -> Mesh:
     """Read the vertices and polygons of a mesh file, as they stand in it.
 
-    `unit` is the one that the file may declare (metres, millimetres, centimetres, inches, feet).
+    `unit` is the one that the file may declare (metres, millimetres, centimetres, inches, feet),
+    empty for any; `Mesh.unit` is the one that it does.
 
     Raises `InputError` that names the file, the place in it, what stands there and what is
     allowed. A library that crashes, or asks for more time or memory than a mesh needs, is such
@@ -65,14 +67,16 @@ def read_mesh(path: str | Path, unit: str = "metres") -> Mesh:
         if not mesh.polygons:
             raise MeshError("holds no faces: 0 triangles, a mesh of faces is needed")
         check_mesh(mesh)
-        _check_unit(mesh.comments, unit)
+        declared = mesh.unit or _find_unit(mesh.comments)
+        if declared and unit and declared != unit:
+            raise MeshError(f"the file declares {declared}: {unit} are allowed")
     except MeshError as error:
         raise InputError(f"{path}: {error}") from None
     except (MemoryError, OverflowError):
         raise InputError(
             f"{path}: too large to be read: damaged, or for a larger machine"
         ) from None
-    return mesh
+    return replace(mesh, unit=declared)
 
 
 def _read_bytes(path: Path) -> bytes:
@@ -119,11 +123,12 @@ _UNITS = {
 _UNIT = re.compile(r"\bunits?\b\W*(?:in\b|are\b|is\b|of measure\b)?\W*([a-z]+)", re.IGNORECASE)
 
 
-def _check_unit(comments: str, due: str) -> None:
-    """Refuse a file that says itself that its coordinates are in another unit."""
+def _find_unit(comments: str) -> str:
+    """Return the unit of the coordinates as a file says it itself, empty where it does not."""
     for match in _UNIT.finditer(comments):
         word = match[1].casefold()
         unit = next((u for key, u in _UNITS.items() if word == key or
                      (len(key) > 3 and word.startswith(key))), None)  # fmt: skip
-        if unit and unit != due:
-            raise MeshError(f"{match[0]!r}: the file declares {unit}: {due} are allowed")
+        if unit:
+            return unit
+    return ""

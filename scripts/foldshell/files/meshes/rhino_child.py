@@ -17,7 +17,7 @@ _PASSED_OVER = ("Curve", "Point", "PointSet", "Annotation", "TextDot", "Light", 
 def read_rhino(path: str, unit: str, refuse) -> dict:
     """Vertices, corner counts and corners of the polygons; `refuse` makes an error of a sentence.
 
-    `unit` is the one that the model must have.
+    `unit` is the one that the model must have, empty for any.
     """
     import rhino3dm
 
@@ -25,8 +25,15 @@ def read_rhino(path: str, unit: str, refuse) -> dict:
     if file is None:
         raise refuse("damaged, cut off or no file of Rhino")
     name = str(file.Settings.ModelUnitSystem).rpartition(".")[2]
-    if UNITS.get(name) != unit:
-        raise refuse(f"the model is in {UNITS.get(name, name)}: {unit} are allowed")
+    declared = UNITS.get(name)
+    if declared is None or declared != (unit or declared):
+        due = unit or ", ".join(UNITS.values())
+        raise refuse(f"the model is in {declared or name}: {due} are allowed")
+    return {**_read_model(file, refuse), "unit": declared}
+
+
+def _read_model(file, refuse) -> dict:
+    """Polygons of the visible objects of a model."""
     meshes, solids = _gather(file, refuse)
     if meshes and solids:
         raise refuse(

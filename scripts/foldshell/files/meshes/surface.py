@@ -2,7 +2,7 @@
 
 import itertools
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -16,6 +16,7 @@ from foldshell.files.meshes.triangles import (
     make_triangles,
     measure_double_areas,
 )
+from foldshell.files.units import FACTORS, WORDS, find_factor, name_unit
 
 STEEPEST = math.radians(85)  # slope of a triangle; walls have no one height per place
 LEAST, LARGEST = 0.9, 3.0  # sizes of the plan that are taken, of the span
@@ -42,21 +43,25 @@ class Surface:
     notes: tuple[str, ...]
 
 
-def read_surface(path: str | Path, span: float) -> Surface:
+def read_surface(path: str | Path, span: float, file_unit: str = "m") -> Surface:
     """Read a target surface over a square plan of side `span` [m].
+
+    `file_unit` is that of the file's coordinates, a key of FACTORS.
 
     Raises InputError for a file that cannot be read, and for a surface of another scale than the
     span, closed, lying over itself in plan, too steep, or with gaps in the plan.
     """
-    mesh = read_mesh(path)
+    given = read_mesh(path, name_unit(file_unit))
+    factor = find_factor(given.unit, file_unit)
+    mesh = given if factor == 1 else replace(given, vertices=factor * given.vertices)
     try:
         found = make_triangles(mesh)
         low, high = found.vertices.min(axis=0), found.vertices.max(axis=0)
         middle = (0.5 * (low + high))[:2]
-        step = _measure_step(mesh)
+        step = factor * _measure_step(given)
         _check_step(found, step if mesh.single else 0.0)
         try:
-            _check_scale(high - low, span)
+            _check_scale(high - low, span, factor)
             _check_surface(found, span, step)
             _check_cover(found, middle, span, step)
         except MeshError as error:
@@ -106,12 +111,12 @@ def _suspect_end(mesh: Mesh) -> str:
     return f"; no face uses the last {count(unused, 'vertex', 'vertices')}, it may be cut off"
 
 
-def _check_scale(size: np.ndarray, span: float) -> None:
+def _check_scale(size: np.ndarray, span: float, factor: float) -> None:
     if _fits(size[:2], span):
         return
     raise MeshError(
         f"plan {size[0]:.4g} x {size[1]:.4g} m: must cover the span of {span:g} m and be at most "
-        f"{LARGEST:g} times as large{guess_cause(size, span)}"
+        f"{LARGEST:g} times as large{guess_cause(size, span, factor)}"
     )
 
 
@@ -119,9 +124,13 @@ def _fits(plan: np.ndarray, span: float) -> bool:
     return bool((plan >= LEAST * span).all() and (plan <= LARGEST * span).all())
 
 
-def guess_cause(size: np.ndarray, span: float) -> str:
-    """Say which unit or axis would make a mesh of this size (3,) fit: for a message only."""
-    best, words = math.inf, ""
+def guess_cause(size: np.ndarray, span: float, taken: float = 1.0) -> str:
+    """Say which unit or axis would make a mesh of this size (3,) fit: for a message only.
+
+    The size is in m, found by the factor `taken` of the file's unit.
+    """
+    best, words, size = math.inf, "", size / taken
+    due = next(WORDS[key] for key, factor in FACTORS.items() if factor == taken)
     for up, (unit, factor) in itertools.product((2, 1, 0), (("metres", 1.0), *UNITS)):
         plan = np.delete(size, up) / factor
         if not _fits(plan, span):
@@ -130,7 +139,7 @@ def guess_cause(size: np.ndarray, span: float) -> str:
         misfit += 2.0 if size[up] / factor > 2 * span else 0.0
         if misfit < best:
             seems = [f"{'xyz'[up]} seems to be up, z is due"] if up != 2 else []
-            seems += [f"it looks like {unit}, metres are due"] if factor != 1 else []
+            seems += [f"it looks like {unit}, {due} are due"] if unit != due else []
             best, words = misfit, "; " + " and ".join(seems)
     return words
 

@@ -7,6 +7,9 @@ import numpy as np
 from foldshell.files.meshes.model import Mesh, MeshError, count
 
 NEAR = 1e-6  # of the mesh's size: border vertices that lie so near are one
+EVEN = 1e-5  # lengths and hands that differ by less are alike: single precision holds 1e-7
+ASKEW = np.array([0.8017, 0.5345, 0.2673])  # a direction that no panel has an axis along
+POWER = 24  # of angles: the largest one decides
 MOST_CORNERS = 60  # of a polygon that is cut the best way
 FLAT = 1e-14  # of the largest area: triangles below it are no triangles
 
@@ -109,25 +112,42 @@ def _split_quads(vertices: np.ndarray, quads: np.ndarray) -> np.ndarray:
         return np.minimum((one * normal).sum(axis=1), (two * normal).sum(axis=1))
 
     along_ac, along_bd = least_turn(a, b, c, d), least_turn(b, c, d, a)
-    shorter = np.linalg.norm(c - a, axis=1) <= np.linalg.norm(d - b, axis=1)
+    one, two = np.linalg.norm(c - a, axis=1), np.linalg.norm(d - b, axis=1)
+    even = np.abs(one - two) <= EVEN * (one + two)
+    hands = _measure_hand(a, b, c) - _measure_hand(b, c, d)
+    places = ((c - a) @ ASKEW) ** 2 - ((d - b) @ ASKEW) ** 2
+    first_hand = np.where(np.abs(hands) > EVEN, hands > 0, places > 0)
+    shorter = np.where(even, first_hand, one < two)
     use_ac = np.where((along_ac > 0) == (along_bd > 0), shorter, along_ac > 0)[:, None]
     first = np.where(use_ac, quads[:, [0, 1, 2]], quads[:, [0, 1, 3]])
     second = np.where(use_ac, quads[:, [0, 2, 3]], quads[:, [1, 2, 3]])
     return np.stack([first, second], axis=1).reshape(-1, 3)
 
 
+def _measure_hand(p: np.ndarray, q: np.ndarray, r: np.ndarray) -> np.ndarray:
+    """(l1 - l2)(l2 - l3)(l3 - l1) / (l1 + l2 + l3)^3 (...) of triangles of corners (..., 3).
+
+    A mirror turns its sign, nothing else changes it: of two ways to cut a panel that are as good
+    as each other it tells one, however corners are numbered and wherever the panel stands.
+    """
+    one, two, three = (np.linalg.norm(e - s, axis=-1) for s, e in ((p, q), (q, r), (r, p)))
+    whole = one + two + three
+    return (one - two) * (two - three) * (three - one) / np.where(whole > 0, whole, 1) ** 3
+
+
 def cut_polygon(vertices: np.ndarray, polygon: np.ndarray) -> np.ndarray:
     """Triangles (k - 2, 3) of one polygon (k,) in its mean plane.
 
-    Of all ways to cut it along diagonals inside, the one whose largest angle is least, found by
-    dynamic programming over the polygon's chains; large polygons are cut ear by ear.
+    Of all ways to cut it along diagonals inside, the one with the least sum of large powers of the
+    triangles' largest angles, found by dynamic programming over the polygon's chains; large
+    polygons are cut ear by ear. Of ways as good as each other always the same is taken.
 
     vertices (V, 3) in one unit of length.
     """
     plane = _lay_in_plane(vertices[polygon])
     if len(polygon) > MOST_CORNERS:
         return polygon[_cut_ears(plane)]
-    angle = _largest_angles(plane)
+    badness = _judge_triangles(plane, vertices[polygon])
     size = len(polygon)
     cost = np.zeros((size, size))
     choice = np.zeros((size, size), dtype=int)
@@ -135,9 +155,9 @@ def cut_polygon(vertices: np.ndarray, polygon: np.ndarray) -> np.ndarray:
         for i in range(size - width):
             j = i + width
             between = np.arange(i + 1, j)
-            worst = np.maximum(np.maximum(cost[i, between], cost[between, j]), angle[i, between, j])
-            best = int(worst.argmin())
-            cost[i, j], choice[i, j] = worst[best], between[best]
+            total = cost[i, between] + cost[between, j] + badness[i, between, j]
+            best = int(total.argmin())
+            cost[i, j], choice[i, j] = total[best], between[best]
     if not np.isfinite(cost[0, -1]):
         return polygon[_cut_ears(plane)]
     triangles, open_chains = [], [(0, size - 1)]
@@ -148,6 +168,19 @@ def cut_polygon(vertices: np.ndarray, polygon: np.ndarray) -> np.ndarray:
             triangles.append([i, m, j])
             open_chains += [(i, m), (m, j)]
     return polygon[np.array(triangles)]
+
+
+def _judge_triangles(plane: np.ndarray, corners: np.ndarray) -> np.ndarray:
+    """Badness (k, k, k) of the triangles i < m < j of a polygon, infinite where they turn back.
+
+    Slightly more for triangles of one hand, and by their place, so that no two ways tie.
+    """
+    hand = _measure_hand(corners[:, None, None], corners[None, :, None], corners[None, None, :])
+    askew = (corners - corners.mean(axis=0)) @ ASKEW
+    place = askew[:, None, None] + askew[None, :, None] + askew[None, None, :]
+    slight = 1 + hand + 1e-4 * place / (np.abs(askew).max() or 1.0)
+    angle = _largest_angles(plane)
+    return np.where(np.isfinite(angle), (angle / np.pi) ** POWER * slight, np.inf)
 
 
 def _lay_in_plane(corners: np.ndarray) -> np.ndarray:
