@@ -1,7 +1,6 @@
 # Files: logs and times of jobs, what the rules over all designs read and write.
 
-from foldshell.engine.memory import count_nodes, estimate_memory, find_free_memory
-from foldshell.engine.memory import guess_counts, share_memory
+from foldshell.engine.memory import estimate_memory, find_free_memory, guess_nodes, share_memory
 from foldshell.claims.sensitivity import VARIANTS
 from foldshell.exchange.formats import name_files
 from foldshell.records.catalogue import FILES
@@ -21,8 +20,8 @@ def memory_of(kind):
 
     def find(wildcards):
         design = BY_NAME[wildcards.design]
-        counts = (design.zigzag, design.strip) if design.zigzag else guess_counts(design.files)
-        nodes = count_nodes(*counts, choose_subdivisions(SETTINGS, design))
+        counts, files = (design.zigzag, design.strip), design.files
+        nodes = guess_nodes(counts, files, choose_subdivisions(SETTINGS, design))
         need = estimate_memory(kind, nodes)
         return min(need, MEMORY[0] or need)
 

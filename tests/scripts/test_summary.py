@@ -108,7 +108,8 @@ def test_every_column_is_that_of_the_file_it_comes_from(tmp_path):
     write_record(folder / "mesh_convergence.json", convergence)
     write_record(folder / "crosscheck/comparison.json", make_comparison(True))
     design = make_design("a") | {"edge_beam_depth_m": 0.41, "edge_beam_thickness_m": 0.23}
-    design |= {"folded": "roof.obj", "file_unit": "mm"}
+    design |= {"folded": "roof.obj", "file_unit": "mm", "strip_grading": 0.3}
+    design |= {"sector_angle_deg": 55.0, "rest_fold_angle_deg": 31.0}
     paths = tmp_path / "summary.csv", tmp_path / "summary.xlsx"
     summary.main([design], tmp_path / "results", SETTINGS, *paths)
     with paths[0].open(encoding="utf-8", newline="") as stream:

@@ -43,11 +43,13 @@ def count_nodes(zigzag_count: int, strip_count: int, subdivisions: int) -> int:
     return vertices + (vertices + facets - 1) * inner + facets * inner * (inner - 1) // 2
 
 
-def guess_counts(files: Iterable[str]) -> tuple[int, int]:
-    """Return counts of polylines of a sheet with as many panels as files of that size may hold."""
-    panels = sum(Path(name).stat().st_size for name in files) / BYTES_A_PANEL
-    count = 3 + round(panels**0.5)
-    return count, count
+def guess_nodes(counts: tuple[int, int], files: Iterable[str], subdivisions: int) -> int:
+    """Return the nodes of a sheet of so many polylines; where there are none, of one with as many
+    panels as files of that size may hold."""
+    if not all(counts):
+        panels = sum(Path(name).stat().st_size for name in files) / BYTES_A_PANEL
+        counts = (3 + round(panels**0.5),) * 2
+    return count_nodes(*counts, subdivisions)
 
 
 def estimate_memory(rule: str, nodes: int) -> int:

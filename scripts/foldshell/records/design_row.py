@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from foldshell.records.entry import COUNT, entries, entry
-from foldshell.settings.design import NONE, DesignColumns, Row
+from foldshell.settings.design import NONE, SILENT_AT_ZERO, DesignColumns, Row
 from foldshell.settings.field import list_settings
 
 _KNOWN = {known.key: known for known in list_settings(DesignColumns).values()}
@@ -14,7 +14,8 @@ def _column(key: str, words: str = "", **more: Any) -> Any:
     """Return a column of the table with the unit and the meaning that the settings give it."""
     known = _KNOWN[key]
     meaning = known.meaning[0].lower() + known.meaning[1:].rstrip(".")
-    return entry(meaning, COUNT if known.kind is int else known.unit, words, **more)
+    unit = {"degrees": "deg"}.get(known.unit, known.unit)
+    return entry(meaning, COUNT if known.kind is int else unit, words, **more)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -35,6 +36,9 @@ class DesignRow:
     edge_beam_thickness_m: float | None = _column(
         "edge_beam_thickness_m", form="general", shown="mm", default=None
     )
+    sector_angle_deg: float | None = _column("sector_angle_deg", form="general", default=None)
+    rest_fold_angle_deg: float | None = _column("rest_fold_angle_deg", form="general", default=None)
+    strip_grading: float | None = _column("strip_grading", form="general", default=None)
     folded: str | None = _column("folded", default=None)
     file_unit: str | None = _column("file_unit", default=None)
 
@@ -45,9 +49,9 @@ class DesignRow:
 
 
 def make_design_row(columns: Row) -> DesignRow:
-    """Return the row of plain columns; sizes of an edge beam of 0, which is none, become None, and
-    so does a file that there is none of."""
+    """Return the row of plain columns; what is none at 0 becomes None there, and so does a file
+    that there is none of."""
     known = {key: columns[key] for key in entries(DesignRow) if key in columns}
-    sizes = ("edge_beam_depth_m", "edge_beam_thickness_m")
+    sizes = ("edge_beam_depth_m", "edge_beam_thickness_m", *SILENT_AT_ZERO)
     none = {key: None for key in ("folded", "file_unit") if columns.get(key) in (NONE, "m")}
     return DesignRow(**known | {key: columns.get(key) or None for key in sizes} | none)

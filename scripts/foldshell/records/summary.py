@@ -80,5 +80,8 @@ class SummaryRow:
         "panels whose thickness a person changed in some iteration; empty for none",
         COUNT, "panels changed by a person", default=None,
     )  # fmt: skip
+    sector_angle_deg: float | None = _design("sector_angle_deg")
+    rest_fold_angle_deg: float | None = _design("rest_fold_angle_deg")
+    strip_grading: float | None = _design("strip_grading")
     folded: str | None = _design("folded")
     file_unit: str | None = _design("file_unit")
