@@ -25,7 +25,6 @@ from crosscheck.stability import Method
 from crosscheck_models import DATA, write_model
 from foldshell.exchange.neutral_model import make_neutral_model
 from foldshell.loads.cases import make_load_cases
-from foldshell.loads.cases import surface_loads as primary_loads
 from foldshell.records.files import write_record
 from foldshell.results import mesh_convergence as mesh_convergence
 from foldshell.settings.make import make_settings
@@ -35,6 +34,7 @@ from foldshell.shell import analysis as primary_analysis
 from foldshell.shell import geometric as primary_geometric
 from foldshell.shell.mesh import edge_polyline_nodes
 from foldshell.shell.mesh_files import mesh_folded_sheet, mesh_from_arrays
+from foldshell.shell.placed_loads import place_loads as primary_loads
 
 SETTINGS = stage_parameters(make_settings({}), "crosscheck")
 SETTINGS["crosscheck"] |= {"strength": "S2", "deflection": "D2"}
@@ -90,16 +90,16 @@ def run_primary(inputs, folder, monkeypatch):
     def mesh_sheet(_folded, _support, subdivisions, order=None, edge_beam=None):
         return mesh_corner(inputs, subdivisions, order=order)
 
-    def load_surface(normal, *others):
-        result = primary_loads(normal, *others)
-        result[:, :, 1] = [0, 0, -inputs.settings["loads"]["superimposed_dead"]]
-        return result
+    def load_surface(*given):
+        placed = primary_loads(*given)
+        placed.fixed[..., 1] = [0, 0, -inputs.settings["loads"]["superimposed_dead"]]
+        return placed
 
     given = read_stage(inputs.settings, *STAGES["crosscheck"])
     with monkeypatch.context() as patch:
         patch.setattr(mesh_convergence, "mesh_folded_sheet", mesh_sheet)
         if inputs.vertical:
-            patch.setattr(primary_analysis, "surface_loads", load_surface)
+            patch.setattr(primary_analysis, "place_loads", load_surface)
         if inputs.membrane != 1:
             scale_result(patch, primary_geometric, "pull_back", inputs.membrane)
         study = mesh_convergence.study_mesh(

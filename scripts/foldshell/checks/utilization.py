@@ -32,6 +32,7 @@ def compute_utilization(
     displacement: np.ndarray,
     thickness: np.ndarray,
     material: Material,
+    imposed: np.ndarray | None = None,
 ) -> Utilization:
     """Evaluate the strength criterion at the sample points of every result cell.
 
@@ -39,8 +40,12 @@ def compute_utilization(
     ----------
     displacement : (dofs, c) m and rad, of the strength combinations
     thickness : (E,) m
+    imposed : (E, 2, c or more) imposed strain and curvature (1/m) of these and further combinations
     """
-    combination = utilization_of_combinations(model.operators, displacement, thickness, material)
+    own = None if imposed is None else imposed[..., : displacement.shape[1]]
+    combination = utilization_of_combinations(
+        model.operators, displacement, thickness, material, own
+    )
     point = combination.max(axis=0)
     governing = combination.mean(axis=3).argmax(axis=0)
     return Utilization(point, combination, point.mean(axis=2), governing)
@@ -51,6 +56,7 @@ def utilization_of_combinations(
     displacement: np.ndarray,
     thickness: np.ndarray,
     material: Material,
+    imposed: np.ndarray | None = None,
 ) -> np.ndarray:
     """Return (c, E, cells^2, s^2): the criterion of each load column at the sample points.
 
@@ -58,8 +64,10 @@ def utilization_of_combinations(
     ----------
     displacement : (dofs, c) m and rad
     thickness : (E,) m
+    imposed : (E, 2, c) imposed strain and curvature (1/m)
     """
-    resultants = stress_resultants(operators, displacement, thickness, material.youngs_modulus)
+    modulus = material.youngs_modulus
+    resultants = stress_resultants(operators, displacement, thickness, modulus, imposed)
     points = sample_points(operators.mesh.cells)
     flat = points.reshape(-1, 2)
     criterion = CRITERIA[material.criterion]

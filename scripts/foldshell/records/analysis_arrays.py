@@ -32,6 +32,9 @@ class AnalysisArrays:
     displacement: np.ndarray | None = array(
         "D, C", "m and rad", "unknowns of the last state of a loop"
     )
+    imposed_strain: np.ndarray | None = array(
+        "E, 2, C", "- and 1/m", "strain and curvature by temperature, where there is any"
+    )
     utilization_cell: np.ndarray | None = array(
         "E, K", "-", "utilization of result cells, last state of a loop"
     )

@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 
-from foldshell.loads.cases import make_load_cases, surface_loads
+from foldshell.loads.cases import make_load_cases
 from foldshell.records.analysis_arrays import IterationsArrays
 from foldshell.records.arrays import list_arrays, read_typed_arrays
 from foldshell.report.loads_section import describe_loads
@@ -23,6 +23,9 @@ from foldshell.results.reactions import Reactions, find_reactions
 from foldshell.results.state import DesignState
 from foldshell.settings.stage import StageSettings
 from foldshell.shell.held_supports import list_supported_vertices
+from foldshell.shell.nodal_loads import mean_loads
+from foldshell.shell.placed_loads import place_loads
+from foldshell.shell.stiffness import ShellOperators
 
 QUANTITIES = {
     "used": ("utilization [-]", "triangle"),
@@ -87,7 +90,7 @@ def make_combination_data(
         "moved": moved,
         "used": used,
         "sections": sections,
-        "case_force": sum_cases(state, settings),
+        "case_force": sum_cases(state, settings, view.operators),
         "reaction": forces,
         "reaction_node": nodes,
     }
@@ -116,17 +119,15 @@ def average_panels(state: DesignState, found: CombinationFields) -> np.ndarray:
     return np.moveaxis(np.array(sums), 1, 2)
 
 
-def sum_cases(state: DesignState, settings: StageSettings) -> np.ndarray:
+def sum_cases(state: DesignState, settings: StageSettings, operators: ShellOperators) -> np.ndarray:
     """Return the resultant (k, P, 3) kN of each load case on each panel."""
-    corner = state.cells.nodes[state.triangles]
-    normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
-    area = np.linalg.norm(normal, axis=1) / 2
-    normal /= 2 * area[:, None]
-    panel, sized = state.cell_panel, len(state.final.thickness)
+    panel, sized = state.mesh.panel, len(state.final.thickness)
     cases = make_load_cases(settings.loads, settings.material.unit_weight)
-    loads = surface_loads(normal, state.panel_thickness[panel], cases, panel >= sized)
+    placed = place_loads(operators, panel >= sized, cases)
+    loads = mean_loads(operators, placed.at(state.panel_thickness[panel]))
+    loads = loads * operators.geometry.area[:, None, None]
     return np.array(
-        [[np.bincount(panel, area * loads[:, x, k]) for x in range(3)] for k in range(len(cases))]
+        [[np.bincount(panel, loads[:, x, k]) for x in range(3)] for k in range(len(placed.names))]
     ).swapaxes(1, 2)
 
 

@@ -42,9 +42,10 @@ def evaluate_combinations(
     operators = operators or build_operators(mesh, material.poissons_ratio)
     geometry, thickness = operators.geometry, state.panel_thickness[mesh.panel]
     moved = state.final.displacement
-    found = stress_resultants(operators, moved, thickness, material.youngs_modulus)
-    strength = moved[:, : len(state.strength)]
-    values = utilization_of_combinations(operators, strength, thickness, material)
+    imposed, count = state.final.imposed_strain, len(state.strength)
+    found = stress_resultants(operators, moved, thickness, material.youngs_modulus, imposed)
+    strength = None if imposed is None else imposed[..., :count]
+    values = utilization_of_combinations(operators, moved[:, :count], thickness, material, strength)
     utilization = values.mean(axis=3).reshape(len(state.strength), -1)
     points = cell_points(mesh.cells)
     psi = orthonormal_basis(mesh.order - 1, points)

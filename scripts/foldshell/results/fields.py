@@ -7,7 +7,7 @@ from foldshell.shell.element import ElementGeometry
 from foldshell.shell.mesh import ShellMesh
 from foldshell.shell.reference import orthonormal_basis
 from foldshell.shell.stiffness import build_operators
-from foldshell.shell.stress import cell_points, membrane_forces
+from foldshell.shell.stress import cell_points, imposed_resultants, membrane_forces
 
 
 def cell_thickness(state: DesignState) -> np.ndarray:
@@ -58,6 +58,9 @@ def membrane_force_coefficients(
     displacement = state.final.displacement[:, column : column + 1]
     thickness = state.panel_thickness[mesh.panel]
     force = membrane_forces(operators, displacement, thickness, youngs_modulus)
+    if state.final.imposed_strain is not None:
+        imposed = state.final.imposed_strain[..., [column]]
+        force = force - imposed_resultants(operators, imposed, thickness, youngs_modulus).force
     return force[..., 0], operators.geometry
 
 

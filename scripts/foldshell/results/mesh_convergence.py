@@ -235,7 +235,9 @@ def _analyse(mesh, folded, support, edge_beam, panel_thickness, material, cases,
 
 def _measure(model, result, thickness, material, arrays) -> dict[str, _OnMesh]:
     """Return the quantities of each combination of a result."""
-    used = compute_utilization(model, result.displacement, thickness, material).combination
+    used = compute_utilization(
+        model, result.displacement, thickness, material, result.imposed
+    ).combination
     reactions = support_reactions(model, result, thickness, material)
     edges = sum_supports(model.mesh, arrays, model.supported_nodes, reactions)
     total = reactions.sum(axis=0)

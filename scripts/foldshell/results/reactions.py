@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foldshell.loads.cases import combination_matrix, make_load_cases, surface_loads
+from foldshell.loads.cases import combination_matrix, make_load_cases
 from foldshell.records.arrays import list_arrays
 from foldshell.results.design_view import DesignView
 from foldshell.results.state import DesignState
@@ -12,7 +12,8 @@ from foldshell.settings.stage import StageSettings
 from foldshell.shell.analysis import AnalysisResult, ShellModel
 from foldshell.shell.boundary import find_acting, list_nodes
 from foldshell.shell.held_supports import find_boundary, list_holds, sum_supports
-from foldshell.shell.nodal_loads import nodal_forces
+from foldshell.shell.nodal_loads import nodal_forces, sum_loads
+from foldshell.shell.placed_loads import place_loads
 from foldshell.shell.results import support_reactions
 from foldshell.shell.support_rows import describe_hold, measure_hold
 
@@ -42,6 +43,7 @@ class Reactions:
     force : (S, 3, c) kN, what the supports exert on the shell
     edges : resultants by supported edge; a node on a corner counts by half for each
     cases : load cases, and `resultant` (3, cases) kN, the sum of each over the shell
+    moment : (3, cases) kNm of each about the origin
     """
 
     combinations: tuple[str, ...]
@@ -50,6 +52,7 @@ class Reactions:
     edges: tuple[SupportedEdge, ...]
     cases: tuple[str, ...]
     resultant: np.ndarray
+    moment: np.ndarray
 
 
 def find_reactions(view: DesignView, settings: StageSettings) -> Reactions | None:
@@ -63,25 +66,26 @@ def find_reactions(view: DesignView, settings: StageSettings) -> Reactions | Non
         return None
     model = _model_of(view)
     thickness = model.to_elements(state.final.thickness)
-    normal = model.operators.geometry.frame[:, 2]
     cases = make_load_cases(settings.loads, material.unit_weight)
-    surface = surface_loads(normal, thickness, cases, model.self_weight_only)
-    names = tuple(case.case for case in cases)
-    factors = combination_matrix(settings.combinations.all, names)
+    placed = place_loads(model.operators, model.self_weight_only, cases)
+    surface = placed.at(thickness)
+    factors = combination_matrix(settings.combinations.all, placed.names)
     loads = nodal_forces(model.operators, surface) @ factors
     moved = state.final.displacement
     second = settings.analysis.second_order and state.report.state == "ok"
     result = AnalysisResult("ok", "", state.combinations, moved, moved, loads,
-                            second_order=second or None)  # fmt: skip
+                            second_order=second or None,
+                            imposed=state.final.imposed_strain)  # fmt: skip
     force = support_reactions(model, result, thickness, material)
-    area = model.operators.geometry.area
+    resultant, moment = sum_loads(model.operators, surface)
     return Reactions(
         combinations=state.combinations,
         node=model.supported_nodes,
         force=force,
         edges=_sum_edges(state, model.supported_nodes, force),
-        cases=names,
-        resultant=np.einsum("e,exk->xk", area, surface),
+        cases=placed.names,
+        resultant=resultant,
+        moment=moment,
     )
 
 

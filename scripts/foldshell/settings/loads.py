@@ -15,11 +15,6 @@ class Loads(Group):
         0.5, unit="kN/m2", minimum=0, maximum=1000,
         meaning="SDL, on the sheet, in the direction that `sdl_direction` says.",
     )  # fmt: skip
-    sdl_direction: str = setting(
-        "normal", choices=("normal", "vertical"),
-        meaning="SDL against the normal of each facet, as in the paper, which on facets that "
-        "overhang pushes up, or straight down.",
-    )  # fmt: skip
     live: float = setting(1.0, unit="kN/m2", minimum=0, maximum=1000, meaning="LL, along -z.")
     wind: float = setting(
         1.7, unit="kN/m2", minimum=0, maximum=1000, meaning="WX and WY, along x and y."
@@ -36,6 +31,11 @@ class Loads(Group):
         False, stages=(),
         meaning="Add the strength combinations S6 and S7, 0.9 (SW + SDL) + 1.0 WX or WY, of "
         "ASCE 7.",
+    )  # fmt: skip
+    sdl_direction: str = setting(
+        "normal", choices=("normal", "vertical"),
+        meaning="SDL against the normal of each facet, as in the paper, which on facets that "
+        "overhang pushes up, or straight down.",
     )  # fmt: skip
     rows: tuple[str, ...] = setting(
         (), internal=True,

@@ -29,6 +29,10 @@ class Material(Group):
         "von_mises", choices=("von_mises", "rankine", "drucker_prager"),
         meaning="Stress that is compared with the strength.",
     )  # fmt: skip
+    thermal_expansion: float = setting(
+        1e-5, unit="1/K", minimum=0, maximum=1e-3,
+        meaning="Expansion by temperature, for loads of that kind.",
+    )  # fmt: skip
 
 
 def age_material(material: Material, creep_coefficient: float) -> Material:

@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from foldshell.loads.cases import SurfaceLoad, combination_matrix, surface_loads
+from foldshell.loads.cases import SurfaceLoad, combination_matrix
 from foldshell.settings.analysis import Analysis
 from foldshell.settings.field import Factors
 from foldshell.settings.material import Material
@@ -16,15 +16,15 @@ from foldshell.shell.assembly import (
     translation_dofs,
 )
 from foldshell.shell.boundary import find_acting
-from foldshell.shell.buckling import BucklingResult, find_buckling_factors
-from foldshell.shell.geometric import apply_geometric, make_geometric_products
-from foldshell.shell.linear_solver import Factor, NotPositiveDefiniteError, factorise
+from foldshell.shell.buckling import BucklingResult
+from foldshell.shell.linear_solver import NotPositiveDefiniteError
 from foldshell.shell.mesh import ShellMesh
-from foldshell.shell.near_null import find_near_null_vector, is_singular
+from foldshell.shell.near_null import find_near_null_vector
 from foldshell.shell.nodal_loads import nodal_forces
-from foldshell.shell.second_order import SecondOrderResult, solve_second_order
+from foldshell.shell.placed_loads import PlacedLoads, place_loads
+from foldshell.shell.second_order import SecondOrderResult
+from foldshell.shell.solution import Solution, State
 from foldshell.shell.stiffness import ShellOperators, build_operators
-from foldshell.shell.stress import membrane_forces
 
 
 @dataclass(frozen=True)
@@ -74,6 +74,7 @@ class AnalysisResult:
     second_order : iterations and residual, or None
     mechanism_node : node that moves most in a mechanism, else None
     imperfection : (dofs,) initial shape in m and rad, or None
+    imposed : (E, 2, c) strain and curvature (1/m) that temperature imposes, or None
     """
 
     state: str
@@ -86,6 +87,7 @@ class AnalysisResult:
     second_order: SecondOrderResult | None = None
     mechanism_node: int | None = None
     imperfection: np.ndarray | None = None
+    imposed: np.ndarray | None = None
 
 
 def build_model(
@@ -133,7 +135,7 @@ def analyse_shell(
     model: ShellModel,
     thickness: np.ndarray,
     material: Material,
-    cases: Sequence[SurfaceLoad],
+    cases: Sequence[SurfaceLoad] | PlacedLoads,
     combinations: Factors,
     options: Analysis | None = None,
     start_modes: np.ndarray | None = None,
@@ -143,38 +145,72 @@ def analyse_shell(
     Parameters
     ----------
     thickness : (E,) m
-    cases : load cases, which the combinations know by name
+    cases : load cases, which the combinations know by name, or these as `place_on_model` left them
     options : by default the settings at their defaults
     start_modes : (free, c) buckling modes of an earlier, similar state
     """
-    options = options or Analysis()
-    names = tuple(combinations)
-    normal = model.operators.geometry.frame[:, 2]
-    surface = surface_loads(normal, thickness, cases, model.self_weight_only)
-    forces = nodal_forces(model.operators, surface)
-    factors = combination_matrix(combinations, [case.case for case in cases])
+    options, names = options or Analysis(), tuple(combinations)
+    placed = cases if isinstance(cases, PlacedLoads) else place_on_model(model, cases)
+    forces = nodal_forces(model.operators, placed.at(thickness))
+    factors = combination_matrix(combinations, placed.names)
+    strains = placed.strains(thickness, material.thermal_expansion)
+    moved = _settle(model, placed)
     values = assemble_stiffness(model.operators, model.pattern, thickness, material.youngs_modulus)
     try:
-        solution = _Solution(model, thickness, material, values, options.solver)
+        solution = Solution(model, thickness, material, values, options.solver)
     except NotPositiveDefiniteError:
         return _mechanism(model, names, forces @ factors, values, options.solver)
-    first_order_cases = solution.solve(forces)
-    first_order = first_order_cases @ factors
-    total = forces @ factors
+    by_case = solution.solve(forces, strains, moved)
+    basic = AnalysisResult(
+        "ok", "first order only", names, by_case @ factors, by_case @ factors, forces @ factors,
+        imposed=None if strains is None else strains @ factors,
+    )  # fmt: skip
     if not options.second_order:
-        return AnalysisResult("ok", "first order only", names, first_order, first_order, total)
-    buckling = solution.buckling(first_order_cases, factors, start_modes)
+        return basic
+    buckling = solution.buckling(by_case, strains, factors, start_modes)
+    settled = None if moved is None else moved @ factors
+    return _go_on(solution, replace(basic, buckling=buckling), options, settled)
+
+
+def place_on_model(model: ShellModel, cases: Sequence[SurfaceLoad]) -> PlacedLoads:
+    """Place load cases on a model, for analyses of any thickness; raises `ValueError`."""
+
+    def held() -> np.ndarray:
+        """Return which translations (N, 3) are held."""
+        free = np.isin(np.arange(3 * len(model.mesh.nodes)), model.pattern.dofs)
+        return ~free.reshape(-1, 3)
+
+    return place_loads(model.operators, model.self_weight_only, cases, held)
+
+
+def _settle(model: ShellModel, placed: PlacedLoads) -> np.ndarray | None:
+    """Return the displacements of supports as fields (dofs, C), or None."""
+    if placed.settled is None:
+        return None
+    moved = np.zeros((model.mesh.dof_count, len(placed.names)))
+    moved[: 3 * len(model.mesh.nodes)] = placed.settled.reshape(-1, len(placed.names))
+    return moved
+
+
+def _go_on(
+    solution: Solution, basic: AnalysisResult, options: Analysis, settled: np.ndarray | None
+) -> AnalysisResult:
+    """Go on to second order from the state of first order, if it is stable."""
+    model, buckling, names = solution.model, basic.buckling, basic.names
     lowest = int(np.argmin(buckling.factors))
     if buckling.factors[lowest] <= 1:
         reason = f"buckling factor {buckling.factors[lowest]:.4g} of {names[lowest]} is below 1"
-        return AnalysisResult("unstable", reason, names, first_order, first_order, total, buckling)
-    imperfection = _initial_shape(model, buckling, lowest, total, options.imperfection)
-    second = solution.second_order(first_order, options, imperfection)
-    displacement = np.zeros_like(first_order)
+        return replace(basic, state="unstable", reason=reason)
+    imperfection = _initial_shape(model, buckling, lowest, basic.loads, options.imperfection)
+    state = State(imperfection, basic.imposed, settled)
+    second = solution.second_order(basic.first_order, options, state)
+    displacement = np.zeros_like(basic.first_order) if settled is None else settled.copy()
     displacement[model.pattern.dofs] = second.displacement
-    state, reason = _judge(names, second, buckling)
-    found = displacement, first_order, total, buckling, second
-    return AnalysisResult(state, reason, names, *found, imperfection=imperfection)
+    verdict, reason = _judge(names, second, buckling)
+    return replace(
+        basic, state=verdict, reason=reason, displacement=displacement, second_order=second,
+        imperfection=imperfection,
+    )  # fmt: skip
 
 
 def _judge(names, second: SecondOrderResult, buckling: BucklingResult) -> tuple[str, str]:
@@ -200,67 +236,6 @@ def _initial_shape(model, buckling, column: int, loads, size: float) -> np.ndarr
     moved = shape[: 3 * len(model.mesh.nodes)].reshape(-1, 3)
     sign = -1.0 if shape @ loads[:, column] < 0 else 1.0
     return shape * (sign * size / np.linalg.norm(moved, axis=1).max())
-
-
-class _Solution:
-    """K factorised for one thickness vector, and the three ways in which it is used."""
-
-    def __init__(self, model, thickness, material, values, solver) -> None:
-        self._model, self._thickness = model, thickness
-        self._modulus = material.youngs_modulus
-        self._factor: Factor = factorise(model.pattern, values, solver)
-        if is_singular(self._factor.solve, model.pattern, values):
-            raise NotPositiveDefiniteError(0)
-        self._dofs = model.pattern.dofs
-
-    def solve(self, forces: np.ndarray) -> np.ndarray:
-        """Return first-order displacements (dofs, c)."""
-        displacement = np.zeros_like(forces)
-        displacement[self._dofs] = self._factor.solve(forces[self._dofs])
-        return displacement
-
-    def forces(self, displacement: np.ndarray) -> np.ndarray:
-        """Return membrane forces (E, 3, m, c) kN/m."""
-        return membrane_forces(self._model.operators, displacement, self._thickness, self._modulus)
-
-    def buckling(self, first_order_cases, factors, start) -> BucklingResult:
-        """Return the buckling factor and the mode of every combination."""
-        # as few geometric stiffnesses as the combinations are independent
-        mixing, weights, independent = np.linalg.svd(factors, full_matrices=False)
-        rank = int((weights > 1e-12 * weights[0]).sum())
-        factors = weights[:rank, None] * independent[:rank]
-        forces = self.forces(first_order_cases @ mixing[:, :rank])
-        dofs = self._dofs
-        multiply = make_geometric_products(self._model.operators, forces, dofs)
-        # modes are kept in ascending order of freedoms, the factor works in its own
-        place = np.argsort(dofs)
-        if start is not None:
-            own = np.empty_like(start, dtype=float)
-            own[place] = start
-            start = own
-        found = find_buckling_factors(self._factor.solve, multiply, factors, len(dofs), start)
-        return replace(found, modes=found.modes[place])
-
-    def second_order(
-        self, first_order: np.ndarray, options: Analysis, imperfection: np.ndarray | None
-    ) -> SecondOrderResult:
-        """Return second-order displacements, from an imperfect shape where there is one."""
-        dofs, operators = self._dofs, self._model.operators
-
-        def correction(displacement: np.ndarray, _columns: np.ndarray) -> np.ndarray:
-            """Return -K^-1 K_g(N(u)) u of displacements u (free, k), m and rad."""
-            full = np.zeros((len(first_order), displacement.shape[1]))
-            full[dofs] = displacement
-            shape = full if imperfection is None else full + imperfection[:, None]
-            force = apply_geometric(operators, self.forces(full), shape)
-            return -self._factor.solve(force[dofs])
-
-        return solve_second_order(
-            first_order[dofs],
-            correction,
-            options.second_order_tolerance,
-            options.second_order_iterations_max,
-        )
 
 
 def _mechanism(model, names, loads, values, solver) -> AnalysisResult:

@@ -57,7 +57,7 @@ def support_reactions(
     no support acts there is none.
     """
     resultants = stress_resultants(
-        model.operators, result.displacement, thickness, material.youngs_modulus
+        model.operators, result.displacement, thickness, material.youngs_modulus, result.imposed
     )
     internal = internal_forces(model.operators, resultants)
     if result.second_order is not None:

@@ -30,13 +30,15 @@ def stress_resultants(
     displacement: np.ndarray,
     thickness: np.ndarray,
     youngs_modulus: float,
+    imposed: np.ndarray | None = None,
 ) -> StressResultants:
-    """N = t E D eps(u), M = t^3/12 E D kappa(u), with kappa = +grad grad w.
+    """N = t E D (eps(u) - eps_0), M = t^3/12 E D (kappa(u) - kappa_0), with kappa = +grad grad w.
 
     Parameters
     ----------
     displacement : (dofs, c) m and rad
     thickness : (E,) m
+    imposed : (E, 2, c) strain eps_0 (-) and curvature kappa_0 (1/m), alike in all directions
     """
     force = membrane_forces(operators, displacement, thickness, youngs_modulus)
     local = _deflections_and_rotations(operators, displacement)
@@ -44,7 +46,27 @@ def stress_resultants(
     curvature = stiffness / 12 * np.matmul(operators.curvature, local)
     moment = _apply_elasticity(operators, curvature)
     spring = stiffness * operators.slope_spring[:, :, None]
-    return StressResultants(force, moment, spring * np.matmul(operators.slope_jump, local))
+    found = StressResultants(force, moment, spring * np.matmul(operators.slope_jump, local))
+    if imposed is None:
+        return found
+    free = imposed_resultants(operators, imposed, thickness, youngs_modulus)
+    return StressResultants(force - free.force, moment - free.moment, found.jump)
+
+
+def imposed_resultants(
+    operators: ShellOperators, imposed: np.ndarray, thickness: np.ndarray, youngs_modulus: float
+) -> StressResultants:
+    """N_0 = t E D eps_0, M_0 = t^3/12 E D kappa_0 of imposed strains (E, 2, c), - and 1/m.
+
+    thickness (E,) m.
+    """
+    count, functions = len(thickness), operators.curvature.shape[1] // 3
+    scale = youngs_modulus * np.stack([thickness, thickness**3 / 12], axis=1)
+    size = operators.elasticity[:2, :2].sum(axis=1)[0] * scale[:, :, None] * imposed
+    parts = np.zeros((2, count, 3, functions, imposed.shape[2]))
+    parts[:, :, :2, 0] = np.moveaxis(size, 1, 0)[:, :, None]
+    jump = np.zeros((*operators.slope_spring.shape, imposed.shape[2]))
+    return StressResultants(parts[0], parts[1], jump)
 
 
 def membrane_forces(

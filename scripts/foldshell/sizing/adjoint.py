@@ -21,7 +21,8 @@ from foldshell.shell.stress import StressResultants, internal_forces, stress_res
 class AdjointModel:
     """A state (displacements and resultants of c combinations) and the factor of its K.
 
-    `thickness` (E,) m; `self_weight` (c,) factor of the self-weight in each combination.
+    `thickness` (E,) m; `load_slope` (E, 3, c) kN/m3 is how the load of each combination on an
+    element grows with its thickness.
     """
 
     model: ShellModel
@@ -29,7 +30,7 @@ class AdjointModel:
     resultants: StressResultants
     thickness: np.ndarray
     material: Material
-    self_weight: np.ndarray
+    load_slope: np.ndarray
     factor: Factor
 
     def solve(self, right: np.ndarray) -> np.ndarray:
@@ -55,11 +56,11 @@ class AdjointModel:
             return np.empty((len(self.thickness), 0))
         membrane, bending = self.virtual_work(adjoint, combination)
         nodes = mesh.elements.shape[1]
-        vertical = adjoint[operators.dofs[:, 2 : 3 * nodes : 3]]
-        weight = np.einsum("n,enk->ek", reference_triangle(mesh.order).load, vertical)
-        weight *= -self.material.unit_weight * operators.geometry.area[:, None]
+        local = adjoint[operators.dofs[:, : 3 * nodes]].reshape(len(membrane), nodes, 3, -1)
+        moved = np.einsum("n,enxk->exk", reference_triangle(mesh.order).load, local)
+        weight = (moved * self.load_slope[..., combination]).sum(axis=1)
         stiffness = (membrane + 3 * bending) / self.thickness[:, None]
-        return weight * self.self_weight[combination] - stiffness
+        return weight * operators.geometry.area[:, None] - stiffness
 
     def virtual_work(
         self, displacement: np.ndarray, column: np.ndarray
@@ -94,8 +95,11 @@ class AdjointModel:
         """
         operators, one = self.model.operators, np.zeros(1, dtype=np.int64)
         modulus, t = self.material.youngs_modulus, self.thickness
-        first = stress_resultants(operators, self.result.first_order[:, [column]], t, modulus)
-        linear = replace(self, resultants=first, self_weight=self.self_weight[[column]])
+        imposed = self.result.imposed
+        imposed = None if imposed is None else imposed[..., [column]]
+        moved = self.result.first_order[:, [column]]
+        first = stress_resultants(operators, moved, t, modulus, imposed)
+        linear = replace(self, resultants=first, load_slope=self.load_slope[..., [column]])
         mode = np.zeros((len(self.model.pattern.free), 1))
         mode[self.model.pattern.free, 0] = self.result.buckling.modes[:, column]
         own = replace(self, resultants=stress_resultants(operators, mode, t, modulus))
@@ -114,7 +118,7 @@ def open_adjoint(
     result: AnalysisResult,
     thickness: np.ndarray,
     material: Material,
-    factors: np.ndarray,
+    load_slope: np.ndarray,
     solver: str = "cholmod",
 ) -> AdjointModel:
     """Factorise K once more for the adjoint solves of a state.
@@ -122,13 +126,15 @@ def open_adjoint(
     Parameters
     ----------
     thickness : (E,) m
-    factors : (5, c) of load cases in combinations, self-weight first
+    load_slope : (E, 3, c) kN/m3, change of the loads of combinations with thickness
     """
     modulus = material.youngs_modulus
     values = assemble_stiffness(model.operators, model.pattern, thickness, modulus)
-    resultants = stress_resultants(model.operators, result.displacement, thickness, modulus)
+    resultants = stress_resultants(
+        model.operators, result.displacement, thickness, modulus, result.imposed
+    )
     factor = factorise(model.pattern, values, solver)
-    return AdjointModel(model, result, resultants, thickness, material, factors[0], factor)
+    return AdjointModel(model, result, resultants, thickness, material, load_slope, factor)
 
 
 def _geometric_work(operators, mode: np.ndarray) -> np.ndarray:

@@ -11,6 +11,7 @@ from foldshell.loads.cases import make_load_cases
 from foldshell.records.arrays import read_checked_arrays
 from foldshell.records.sheet_arrays import MeshArrays
 from foldshell.settings.stage import StageSettings
+from foldshell.shell.analysis import place_on_model
 from foldshell.shell.held_supports import build_supported_model
 from foldshell.shell.mesh_files import mesh_from_arrays
 from foldshell.sizing.constraints import NEED_CONSTRAINTS, least_factor_due
@@ -29,7 +30,7 @@ def open_case(mesh_path: str | Path, settings: StageSettings) -> AnalysisCase:
     Raises
     ------
     InputError
-        for supports that leave a mechanism.
+        for supports that leave a mechanism, and loads that meet no panel.
     """
     key = hash_file(mesh_path), hash_data(settings.to_plain())
     if key not in _LAST:
@@ -43,7 +44,8 @@ def open_case(mesh_path: str | Path, settings: StageSettings) -> AnalysisCase:
 
 
 def make_case(arrays: Mapping[str, np.ndarray], settings: StageSettings) -> AnalysisCase:
-    """Build the same from the arrays of mesh.npz; raises `ValueError` for such supports."""
+    """Build the same from the arrays of mesh.npz; raises `ValueError` for such supports,
+    and for loads on a zone without panels."""
     material, sizing = settings.material, settings.sizing
     model = build_supported_model(mesh_from_arrays(arrays), arrays, material.poissons_ratio)
     cases = make_load_cases(settings.loads, material.unit_weight)
@@ -52,5 +54,5 @@ def make_case(arrays: Mapping[str, np.ndarray], settings: StageSettings) -> Anal
     notes = arrays.get("support_warnings")
     return AnalysisCase(
         model, material, cases, settings.combinations, settings.analysis, sizing, factor_min,
-        () if notes is None else tuple(map(str, notes.tolist())),
+        () if notes is None else tuple(map(str, notes.tolist())), place_on_model(model, cases),
     )  # fmt: skip

@@ -141,7 +141,9 @@ def describe_edge_beam(done: Analysed, record: AnalysisRecord) -> AnalysisRecord
 
 def add_final_fields(done: Analysed, arrays: AnalysisArrays) -> AnalysisArrays:
     """Add the fields that pictures and exports of the last state need."""
-    arrays = replace(arrays, displacement=done.result.displacement)
+    arrays = replace(
+        arrays, displacement=done.result.displacement, imposed_strain=done.result.imposed
+    )
     if done.utilization is None:
         return arrays
     return replace(

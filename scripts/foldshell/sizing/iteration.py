@@ -15,6 +15,7 @@ from foldshell.settings.loads import Combinations
 from foldshell.settings.material import Material
 from foldshell.settings.sizing import Sizing
 from foldshell.shell.analysis import ShellModel, analyse_shell
+from foldshell.shell.placed_loads import PlacedLoads
 from foldshell.sizing.criteria import IterationState, Verdict, judge_iteration
 from foldshell.sizing.describe import (
     Analysed,
@@ -58,7 +59,8 @@ class IterationTask:
 @dataclass(frozen=True)
 class AnalysisCase:
     """A design ready for any thickness; `factor_min`, the buckling factor to keep, is None where no
-    constraints are asked for; `notes` are what is to be said of its supports."""
+    constraints are asked for; `notes` are what is to be said of its supports; `placed` are the
+    loads of `cases` on the mesh."""
 
     model: ShellModel
     material: Material
@@ -68,6 +70,7 @@ class AnalysisCase:
     sizing: Sizing
     factor_min: float | None
     notes: tuple[str, ...] = ()
+    placed: PlacedLoads | None = None
 
     def run(
         self, task: IterationTask, alone: bool = False
@@ -96,12 +99,12 @@ def _analyse(case: AnalysisCase, task: IterationTask) -> Analysed:
     model, material, groups = case.model, case.material, case.combinations
     thickness = model.to_elements(task.thickness)
     modes = task.previous_arrays.buckling_modes if task.previous_arrays else None
-    result = analyse_shell(model, thickness, material, case.cases, groups.all, case.options, modes)
+    result = analyse_shell(model, thickness, material, case.placed, groups.all, case.options, modes)
     done = Analysed(case, task, thickness, result)
     if result.state not in ("ok", "not_converged"):
         return done
     strength = result.displacement[:, : len(groups.strength)]
-    utilization = compute_utilization(model, strength, thickness, material)
+    utilization = compute_utilization(model, strength, thickness, material, result.imposed)
     panels, edge_beam_panels = {}, {}
     for name in MEASURES:
         values = panel_utilization(model, utilization.cell, name)
@@ -163,9 +166,10 @@ def _judge(done: Analysed, volume: float) -> Verdict:
 
 def _add_constraints(done: Analysed, factor_min: float, arrays: AnalysisArrays) -> AnalysisArrays:
     case = done.case
-    factors = combination_matrix(case.combinations.all, [one.case for one in case.cases])
+    factors = combination_matrix(case.combinations.all, case.placed.names)
     found = linearise_constraints(
-        case.model, done.result, done.thickness, case.material, factors, done.utilization,
+        case.model, done.result, done.thickness, case.material, case.placed.weight @ factors,
+        done.utilization,
         case.sizing, done.task.span, factor_min,
     )  # fmt: skip
     return replace(

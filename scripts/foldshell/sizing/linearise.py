@@ -40,7 +40,7 @@ def linearise_constraints(
     result: AnalysisResult,
     thickness: np.ndarray,
     material: Material,
-    factors: np.ndarray,
+    load_slope: np.ndarray,
     utilization: Utilization,
     sizing: Sizing,
     span: float,
@@ -52,7 +52,8 @@ def linearise_constraints(
     Parameters
     ----------
     thickness : (E,) m
-    factors : (5, c) load-case factors of the combinations, strength first
+    load_slope : (E, 3, c) kN/m3, change with thickness of the loads of the combinations, strength
+        first
     span : m, whose fraction is the displacement limit
     factor_min : buckling factor that every combination keeps
     """
@@ -68,7 +69,7 @@ def linearise_constraints(
     area, sized = panel_area(model), slice(0, model.sized_panels)
     value, gradient = np.empty(0), np.empty((0, len(area)))
     if len(pairs) + len(low) + len(panels):
-        adjoint = open_adjoint(model, result, thickness, material, factors)
+        adjoint = open_adjoint(model, result, thickness, material, load_slope)
         parts = [_displacement(adjoint, down, pairs, limit), _buckling(adjoint, low, factor_min)]
         if len(panels):
             measured = utilization_gradient(adjoint, utilization, panels, strength, sizing.measure)

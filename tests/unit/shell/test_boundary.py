@@ -247,7 +247,7 @@ def test_gradients_with_springs_by_taylor():
 
     result, field = solve(0.0)
     adjoint = open_adjoint(model, replace(result, displacement=result.first_order), field, material,
-                           np.zeros((5, 1)))  # fmt: skip
+                           np.zeros((len(field), 3, 1)))  # fmt: skip
     unit = np.zeros((mesh.dof_count, 1))
     unit[3 * node + 2] = 1.0
     slope = adjoint.implicit(adjoint.solve(unit), np.zeros(1, dtype=int))

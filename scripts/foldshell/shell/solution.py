@@ -1,0 +1,107 @@
+"""K of one thickness vector, factorised, and the ways in which an analysis uses it."""
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from foldshell.settings.analysis import Analysis
+from foldshell.shell.buckling import BucklingResult, find_buckling_factors
+from foldshell.shell.geometric import apply_geometric, make_geometric_products
+from foldshell.shell.linear_solver import Factor, NotPositiveDefiniteError, factorise
+from foldshell.shell.near_null import is_singular
+from foldshell.shell.second_order import SecondOrderResult, solve_second_order
+from foldshell.shell.stress import (
+    imposed_resultants,
+    internal_forces,
+    membrane_forces,
+    stress_resultants,
+)
+
+
+@dataclass(frozen=True)
+class State:
+    """What second order knows beside displacements: an imperfect shape (dofs,), and of each
+    combination imposed strains (E, 2, c) and settlements (dofs, c); None each for none."""
+
+    imperfection: np.ndarray | None
+    imposed: np.ndarray | None
+    settled: np.ndarray | None
+
+
+class Solution:
+    """K factorised for one thickness vector, and the three ways in which it is used."""
+
+    def __init__(self, model, thickness, material, values, solver) -> None:
+        self.model, self._thickness = model, thickness
+        self._modulus = material.youngs_modulus
+        self._factor: Factor = factorise(model.pattern, values, solver)
+        if is_singular(self._factor.solve, model.pattern, values):
+            raise NotPositiveDefiniteError(0)
+        self._dofs = model.pattern.dofs
+
+    def solve(
+        self, forces: np.ndarray, strains: np.ndarray | None, moved: np.ndarray | None
+    ) -> np.ndarray:
+        """Return first-order displacements (dofs, c): K u = F + int B^T N_0 - K u_0."""
+        operators, t, modulus = self.model.operators, self._thickness, self._modulus
+        displacement = np.zeros_like(forces) if moved is None else moved.copy()
+        if strains is not None or moved is not None:
+            state = stress_resultants(operators, displacement, t, modulus, strains)
+            forces = forces - internal_forces(operators, state)
+        displacement[self._dofs] = self._factor.solve(forces[self._dofs])
+        return displacement
+
+    def forces(self, displacement: np.ndarray, imposed: np.ndarray | None) -> np.ndarray:
+        """Return membrane forces (E, 3, m, c) kN/m."""
+        operators, t, modulus = self.model.operators, self._thickness, self._modulus
+        force = membrane_forces(operators, displacement, t, modulus)
+        if imposed is None:
+            return force
+        return force - imposed_resultants(operators, imposed, t, modulus).force
+
+    def buckling(self, first_order_cases, strains, factors, start) -> BucklingResult:
+        """Return the buckling factor and the mode of every combination."""
+        # as few geometric stiffnesses as the combinations are independent
+        mixing, weights, independent = np.linalg.svd(factors, full_matrices=False)
+        rank = int((weights > 1e-12 * weights[0]).sum())
+        factors = weights[:rank, None] * independent[:rank]
+        mixing = mixing[:, :rank]
+        imposed = None if strains is None else strains @ mixing
+        forces = self.forces(first_order_cases @ mixing, imposed)
+        dofs = self._dofs
+        multiply = make_geometric_products(self.model.operators, forces, dofs)
+        # modes are kept in ascending order of freedoms, the factor works in its own
+        place = np.argsort(dofs)
+        if start is not None:
+            own = np.empty_like(start, dtype=float)
+            own[place] = start
+            start = own
+        found = find_buckling_factors(self._factor.solve, multiply, factors, len(dofs), start)
+        return replace(found, modes=found.modes[place])
+
+    def second_order(
+        self, first_order: np.ndarray, options: Analysis, state: State
+    ) -> SecondOrderResult:
+        """Return second-order displacements, from an imperfect shape where there is one.
+
+        first_order (dofs, c) m and rad.
+        """
+        dofs, operators = self._dofs, self.model.operators
+
+        def correction(displacement: np.ndarray, columns: np.ndarray) -> np.ndarray:
+            """Return -K^-1 K_g(N(u)) u of displacements u (free, k), m and rad."""
+            full = np.zeros((len(first_order), displacement.shape[1]))
+            if state.settled is not None:
+                full = state.settled[:, columns]
+            full[dofs] = displacement
+            imposed = None if state.imposed is None else state.imposed[..., columns]
+            shape = full if state.imperfection is None else full + state.imperfection[:, None]
+            force = apply_geometric(operators, self.forces(full, imposed), shape)
+            return -self._factor.solve(force[dofs])
+
+        return solve_second_order(
+            first_order[dofs],
+            correction,
+            options.second_order_tolerance,
+            options.second_order_iterations_max,
+        )
