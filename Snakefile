@@ -58,7 +58,7 @@ rule all:
         f"{STUDY}/manifest.json",
 
 
-STAGES = ["pattern", "fold", "shell", "ways", "crosscheck", "study", "deliver"]
+STAGES = ["pattern", "fold", "shell", "ways", "crosscheck", "checks", "study", "deliver"]
 for STAGE in [*STAGES, "manifest", "figures", "report", "sheets", "archive", "export", "run"]:
 
     include: f"{RULES}/{STAGE}.smk"

@@ -40,6 +40,7 @@ RUN = (
 AFTER = (
     Step("group", "classes.json", "sizing"),
     Step("mesh_convergence", "mesh_convergence.json", "results"),
+    Step("check", "engineering.json, .xlsx", "checks"),
     Step("neutral_model", "model.json", "exchange"),
     Step("compare", "comparison.json", "scripts/crosscheck/"),
     Step("draw", "figures/*.png, .vtu", "figures"),

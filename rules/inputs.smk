@@ -49,7 +49,7 @@ SCHEMAS = [f"{RESULTS}/schemas/{file.name}.schema.json" for file in FILES]
 def design_files(name):
     """Return what is made of a design, but its manifest."""
     files = ["design.xlsx", "design.vtu", "crosscheck/comparison.json", "page.html"]
-    files += ["sheet.html"]
+    files += ["sheet.html", "checks/engineering.json"]
     files += [f"figures/{picture}.png" for picture in PICTURES]
     unfolded = [f"pattern/developable_pattern.{kind}" for kind in ("fold", "dxf", "svg")]
     files += unfolded * (BY_NAME[name].fold_mode in ("exact", "rigid"))
@@ -72,7 +72,7 @@ def summary_inputs(tag):
     a copy of what it made is put into the folder of results at the end of the run."""
     RUN["studies"].append(tag)
     files = ["folded/quality.json", "sizing/final.json", "mesh_convergence.json"]
-    files.append("crosscheck/comparison.json")
+    files += ["crosscheck/comparison.json", "checks/engineering.json"]
     return [f"{RESULTS}/{name}/{file}" for name in names_of_tag(tag) for file in files]
 
 

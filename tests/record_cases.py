@@ -3,6 +3,12 @@
 from foldshell.records.analysis import AnalysisRecord, Criteria, Criterion
 from foldshell.records.classes import ClassesRecord, ThicknessClass
 from foldshell.records.comparison import ComparedQuantity, ComparisonRecord
+from foldshell.records.engineering import (
+    CombinationFactors,
+    EngineeringCheck,
+    EngineeringRecord,
+    Measures,
+)
 from foldshell.records.mesh_convergence import MeshConvergenceRecord, MeshStudy, ReferenceMesh
 from foldshell.records.quality import QualityRecord
 from foldshell.records.summary import SummaryRow
@@ -68,6 +74,42 @@ def make_convergence(errors=None, reason=None, **changes) -> MeshConvergenceReco
     )
     values = {"mesh_error": 0.03, "buckling_mesh_error": 0.01, "subdivisions": 4}
     return MeshConvergenceRecord(**values | changes, errors=errors or {}, study=study)
+
+
+def make_check(value=0.5, limit=1.0, met=True, **changes) -> EngineeringCheck:
+    """Return one engineering check."""
+    rest = {
+        "words": "strength on strips", "unit": "", "at_least": False, "combination": "ULS1",
+        "panel": 3, "mesh_error": 0.02, "within_mesh_error": False,
+    }  # fmt: skip
+    return EngineeringCheck(value=value, limit=limit, met=met, **rest | changes)
+
+
+def make_engineering(checks=None, measures=None, **changes) -> EngineeringRecord:
+    """Return engineering.json; `measures` are (panel mean, strip) by criterion."""
+    made = {
+        name: Measures(
+            utilization_panel_mean_max=mean,
+            utilization_strip_max=strip,
+            panels_above_one=0,
+            area_share_above_one=0.0,
+        )
+        for name, (mean, strip) in (measures or {"von_mises": (0.8, 1.4)}).items()
+    }
+    rest = {
+        "verdict": "passes", "reason": "all checks are met", "material_kind": "concrete",
+        "buckling_terms": {"required": 6.0}, "loop_criterion": "von_mises",
+        "combinations": CombinationFactors(
+            strength={"ULS1": {"SW": 1.35}}, characteristic={"SLS1": {"SW": 1.0}},
+            quasi_permanent={"QP1": {"SW": 1.0}},
+        ),
+        "buckling_factor": {"ULS1": 12.0}, "loads": {"SW": (0.0, 0.0, -9.0)},
+        "reactions": {"zigzag first": {"ULS1": (1.0, 0.0, 9.0)}}, "analyses": 2,
+        "panels": {"panel": (0, 1)},
+    }  # fmt: skip
+    return EngineeringRecord(
+        checks=checks or {"strength": make_check()}, measures=made, **rest | changes
+    )
 
 
 def make_quantity(passed=False, **changes) -> ComparedQuantity:

@@ -13,7 +13,15 @@ from foldshell.records.files import write_record
 from foldshell.records.summary import SummaryRow
 from foldshell.settings.make import make_settings
 from foldshell.settings.stages import stage_parameters
-from record_cases import USED, make_analysis, make_comparison, make_convergence, make_quality
+from record_cases import (
+    USED,
+    make_analysis,
+    make_check,
+    make_comparison,
+    make_convergence,
+    make_engineering,
+    make_quality,
+)
 
 SETTINGS = stage_parameters(make_settings({}), "study")
 CONTRACT = [
@@ -89,7 +97,9 @@ def run(tmp_path, names):
 def test_columns_begin_as_in_the_contract():
     assert list(entries(SummaryRow))[: len(CONTRACT)] == CONTRACT
     assert set(entries(SummaryRow)) > {
-        "utilization_panel_mean_max", "governing_combination", "edited_panels",
+        "utilization_panel_mean_max", "governing_combination", "edited_panels", "engineering",
+        "engineering_reason", "utilization_strip_max", "steel_kg_m2",
+        "displacement_horizontal_max_m",
     }  # fmt: skip
 
 
@@ -107,6 +117,10 @@ def test_every_column_is_that_of_the_file_it_comes_from(tmp_path):
     convergence = make_convergence(mesh_error=0.021, buckling_mesh_error=0.17)
     write_record(folder / "mesh_convergence.json", convergence)
     write_record(folder / "crosscheck/comparison.json", make_comparison(True))
+    sway = {"displacement_horizontal": make_check(value=0.057)}
+    used = {"von_mises": (0.81, 1.46), "rankine": (2.9, 6.3)}
+    engineering = make_engineering(sway, used, verdict="fails", reason="tension")
+    write_record(folder / "checks/engineering.json", engineering)
     design = make_design("a") | {"edge_beam_depth_m": 0.41, "edge_beam_thickness_m": 0.23}
     design |= {"folded": "roof.obj", "file_unit": "mm", "strip_grading": 0.3}
     design |= {"sector_angle_deg": 55.0, "rest_fold_angle_deg": 31.0}
@@ -130,6 +144,11 @@ def test_every_column_is_that_of_the_file_it_comes_from(tmp_path):
     others = {
         "edge_strain_max": "0.0123", "planarity_max": "0.0045", "mesh_error": "0.021",
         "buckling_mesh_error": "0.17", "crosscheck": "pass",
+    }  # fmt: skip
+    others |= {
+        "engineering": "fails", "engineering_reason": "tension", "steel_kg_m2": "",
+        "displacement_horizontal_max_m": "0.057", "utilization_strip_max": "1.46",
+        "rankine_panel_mean_max": "2.9", "rankine_strip_max": "6.3",
     }  # fmt: skip
     assert row == from_table | last | made | others
     numbers = [text for text in row.values() if text.replace(".", "").isdigit()]

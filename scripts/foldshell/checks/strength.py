@@ -6,6 +6,9 @@ import numpy as np
 
 from foldshell.settings.material import Material
 
+Criterion = Callable[[np.ndarray, Material], np.ndarray]
+"""From stresses (..., 3) kPa to utilization (...)."""
+
 
 def principal_stresses(stress: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Return the larger and smaller principal value of plane components (xx, yy, xy), (..., 3).
@@ -50,7 +53,27 @@ def utilization_drucker_prager(stress: np.ndarray, material: Material) -> np.nda
     return ((alpha * (x + y) + root_j2) / k).clip(min=0.0)
 
 
-CRITERIA: dict[str, Callable[[np.ndarray, Material], np.ndarray]] = {
+def utilization_capped_cone(stress: np.ndarray, material: Material) -> np.ndarray:
+    """max(Drucker-Prager, -s2 / f): the cone, which is open towards equal biaxial compression.
+
+    stress (..., 3) kPa as xx, yy, xy; returns (...) without unit.
+    """
+    return np.maximum(
+        utilization_drucker_prager(stress, material), utilization_compression(stress, material)
+    )
+
+
+def utilization_compression(stress: np.ndarray, material: Material) -> np.ndarray:
+    """-s2 / f, 0 without compression; stress (..., 3) kPa to (...) without unit."""
+    return (-principal_stresses(stress)[1] / material.strength).clip(min=0.0)
+
+
+def utilization_tension(stress: np.ndarray, material: Material) -> np.ndarray:
+    """s1 / f_t, 0 without tension; stress (..., 3) kPa to (...) without unit."""
+    return (principal_stresses(stress)[0] / material.strength_tension).clip(min=0.0)
+
+
+CRITERIA: dict[str, Criterion] = {
     "von_mises": utilization_von_mises,
     "rankine": utilization_rankine,
     "drucker_prager": utilization_drucker_prager,

@@ -11,7 +11,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foldshell.checks.strength import CRITERIA
+from foldshell.checks.strength import CRITERIA, Criterion
 from foldshell.settings.material import Material
 from foldshell.shell.mesh import ShellMesh, list_facets
 from foldshell.shell.reference import EDGES, orthonormal_basis, triangle_quadrature
@@ -189,18 +189,24 @@ def spread_to_coefficients(strips: Strips, values: np.ndarray, elements: int) ->
 
 
 def utilization_of_strips(
-    strips: Strips, resultants: StressResultants, thickness: np.ndarray, material: Material
+    strips: Strips,
+    resultants: StressResultants,
+    thickness: np.ndarray,
+    material: Material,
+    criterion: Criterion | None = None,
 ) -> np.ndarray:
     """Criterion of the mean forces and moments of each strip: (S, c), no unit.
 
-    The largest over top, middle and bottom surface; thickness (E,) m of elements.
+    The largest over top, middle and bottom surface; thickness (E,) m of elements. The criterion is
+    that of the material where none is given.
     """
+    criterion = criterion or CRITERIA[material.criterion]
     force, moment = (
         strip_means(strips, one).transpose(0, 2, 1)[:, None]
         for one in (resultants.force, resultants.moment)
     )
     stress = surface_stresses(force, moment, thickness[strips.element[strips.first]])
-    return CRITERIA[material.criterion](stress, material).max(axis=0)[:, 0]
+    return criterion(stress, material).max(axis=0)[:, 0]
 
 
 def largest_of_panels(strips: Strips, values: np.ndarray) -> np.ndarray:

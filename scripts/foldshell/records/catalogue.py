@@ -12,6 +12,7 @@ from foldshell.records.analysis_arrays import (
 from foldshell.records.claims import ClaimRecord
 from foldshell.records.classes import ClassesRecord
 from foldshell.records.comparison import ComparisonRecord
+from foldshell.records.engineering import EngineeringArrays, EngineeringRecord
 from foldshell.records.history import HistoryRow
 from foldshell.records.kinematics import KinematicsRecord
 from foldshell.records.measures import FlatEqualRecord, SensitivityRow, VariantRecord
@@ -53,6 +54,8 @@ FILES = (
                "what the independent code compares with"),
     ResultFile("comparison", f"{DESIGN}/crosscheck/comparison.json", ComparisonRecord,
                "both codes side by side; written by the independent code"),
+    ResultFile("engineering", f"{DESIGN}/checks/engineering.json", EngineeringRecord,
+               "the engineering verdict on the final state"),
     ResultFile("flat_equal", f"{DESIGN}/flat_equal.json", FlatEqualRecord,
                "the flat sheet with the same volume"),
     ResultFile("variant", "sensitivity/<variant>/<design>.json", VariantRecord,
@@ -73,4 +76,6 @@ ARRAYS = (
     ResultFile("iterations", f"{LOOP}/iterations.npz", IterationsArrays,
                "panels in each iteration"),
     ResultFile("classes", f"{LOOP}/classes.npz", ClassesArrays, "arrays of the grouped design"),
+    ResultFile("engineering", f"{DESIGN}/checks/engineering.npz", EngineeringArrays,
+               "forces and reactions under the combinations of the engineering verdict"),
 )  # fmt: skip

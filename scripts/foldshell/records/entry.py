@@ -9,7 +9,8 @@ from functools import cache
 from types import MappingProxyType
 from typing import Any, get_type_hints
 
-SIGNS = {"m2": "m²", "m3": "m³", "deg": "°", "kN/m2": "kN/m²", "kN/m3": "kN/m³"}
+SIGNS = {"m2": "m²", "m3": "m³", "deg": "°", "kN/m2": "kN/m²", "kN/m3": "kN/m³",
+         "kg/m2": "kg/m²"}  # fmt: skip
 """Units of files as people write them."""
 COUNT = "count"
 """Unit of whole numbers that count something."""

@@ -85,3 +85,27 @@ class SummaryRow:
     strip_grading: float | None = _design("strip_grading")
     folded: str | None = _design("folded")
     file_unit: str | None = _design("file_unit")
+    utilization_strip_max: float | None = entry(
+        "largest utilization of a facet or strip as a mean, by criterion and combinations of the "
+        "loop", "-", "utilization, largest strip", default=None,
+    )  # fmt: skip
+    rankine_panel_mean_max: float | None = entry(
+        "the same as utilization_panel_mean_max by the criterion of Rankine: tension counts",
+        "-", "Rankine, largest panel mean", default=None,
+    )  # fmt: skip
+    rankine_strip_max: float | None = entry(
+        "the same as utilization_strip_max by the criterion of Rankine",
+        "-", "Rankine, largest strip", default=None,
+    )  # fmt: skip
+    displacement_horizontal_max_m: float | None = entry(
+        "largest horizontal displacement under the characteristic combinations of the engineering "
+        "verdict", "m", "horizontal displacement", shown="mm", default=None,
+    )  # fmt: skip
+    engineering: str | None = entry(
+        "engineering verdict: passes, fails or not_applicable", default=None
+    )
+    engineering_reason: str | None = entry("why it is so", default=None)
+    steel_kg_m2: float | None = entry(
+        "reinforcement by area of the sheet; empty without a design of it", "kg/m2",
+        "reinforcement", default=None,
+    )  # fmt: skip

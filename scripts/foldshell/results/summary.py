@@ -3,13 +3,14 @@
 from collections.abc import Iterable
 from dataclasses import asdict
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from foldshell.files.errors import InputError
 from foldshell.files.whole import DIGITS, hash_data
 from foldshell.records.analysis import AnalysisRecord
 from foldshell.records.comparison import ComparisonRecord, read_comparison
 from foldshell.records.design_row import make_design_row
+from foldshell.records.engineering import EngineeringRecord
 from foldshell.records.files import read_record
 from foldshell.records.mesh_convergence import MeshConvergenceRecord
 from foldshell.records.quality import QualityRecord
@@ -67,6 +68,7 @@ def make_summary_row(design: Row, folder: str | Path) -> SummaryRow:
         mesh_error=study and study.mesh_error,
         buckling_mesh_error=study and study.buckling_mesh_error,
         **{key: quality and getattr(quality, key) for key in _OF_FOLDING},
+        **_describe_engineering(folder / "checks/engineering.json", last),
         crosscheck=_find_outcome(folder / "crosscheck/comparison.json"),
     )
 
@@ -92,6 +94,23 @@ def _describe_state(state: AnalysisRecord | None) -> dict[str, float | str | Non
         "volume_per_area_m": state.volume_m3 / state.area_m2 if state.area_m2 else None,
         "buckling_factor_min": state.least_factor,
         "model_warnings": state.warning,
+    }
+
+
+def _describe_engineering(path: Path, last: AnalysisRecord | None) -> dict[str, Any]:
+    """Return the columns of the engineering verdict, none where there is none."""
+    record = _read_optional(path, EngineeringRecord)
+    if record is None or last is None:
+        return {}
+    sway, rankine = record.checks.get("displacement_horizontal"), record.measures.get("rankine")
+    own = record.measures.get(record.loop_criterion)
+    return {
+        "engineering": record.verdict,
+        "engineering_reason": record.reason,
+        "displacement_horizontal_max_m": sway and sway.value,
+        "utilization_strip_max": own and own.utilization_strip_max,
+        "rankine_panel_mean_max": rankine and rankine.utilization_panel_mean_max,
+        "rankine_strip_max": rankine and rankine.utilization_strip_max,
     }
 
 

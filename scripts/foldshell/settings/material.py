@@ -25,6 +25,11 @@ class Material(Group):
         1.67, unit="MPa", above=0, maximum=10000,
         meaning="Strength in tension, which the criteria of Rankine and of Drucker and Prager use.",
     )  # fmt: skip
+    kind: str = setting(
+        "concrete", choices=("concrete", "steel", "user"), stages=("size", "study"),
+        meaning="Which engineering checks hold: of concrete (without steel, tension is limited by "
+        "strength_tension), of steel (von Mises), or of a material with the criterion below.",
+    )  # fmt: skip
     criterion: str = setting(
         "von_mises", choices=("von_mises", "rankine", "drucker_prager"),
         meaning="Stress that is compared with the strength.",

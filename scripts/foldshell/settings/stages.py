@@ -4,6 +4,7 @@ from foldshell.files.whole import DIGITS, hash_data, hash_file
 from foldshell.settings.analysed import ANALYSED, LOADED
 from foldshell.settings.analysis import Analysis
 from foldshell.settings.archive import Archive
+from foldshell.settings.checks import Checks
 from foldshell.settings.codes import Codes
 from foldshell.settings.crosscheck import Crosscheck
 from foldshell.settings.design import FILE_COLUMNS, Design
@@ -29,8 +30,8 @@ STAGES: dict[str, tuple[type, ...]] = {
     "drawings": (Drawings,),
     "exports": (Exports,),
     "archive": (Archive,),
-    "checks": (*LOADED, Codes, Analysis, Sizing),
-    "study": (Pattern, Fold, *ANALYSED, Crosscheck),
+    "checks": (Codes, Checks),
+    "study": (Pattern, Fold, *ANALYSED, Checks, Crosscheck),
 }
 """Groups that each stage takes; a setting with `stages` of its own goes to those alone."""
 

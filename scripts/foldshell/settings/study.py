@@ -2,6 +2,7 @@
 
 from foldshell.settings.analysis import Analysis
 from foldshell.settings.archive import Archive
+from foldshell.settings.checks import Checks
 from foldshell.settings.codes import Codes
 from foldshell.settings.crosscheck import Crosscheck
 from foldshell.settings.design import DesignColumns
@@ -96,6 +97,7 @@ class Settings(Group):
     codes: Codes
     analysis: Analysis
     sizing: Sizing
+    checks: Checks
     crosscheck: Crosscheck
     limits: Limits
     jobs: Jobs

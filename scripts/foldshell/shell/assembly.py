@@ -87,16 +87,16 @@ def assemble_stiffness(
     operators: ShellOperators,
     pattern: LowerPattern,
     thickness: np.ndarray,
-    youngs_modulus: float,
+    youngs_modulus: float | np.ndarray,
 ) -> np.ndarray:
     """Return the nonzeros of K = E (t K_m + t^3 K_b) + springs in the order of `pattern`.
 
     Parameters
     ----------
     thickness : (E,) m, of each element
-    youngs_modulus : kPa
+    youngs_modulus : kPa, of all or (E,) of each element
     """
-    t = youngs_modulus * np.asarray(thickness)[:, None]
+    t = (youngs_modulus * np.asarray(thickness))[:, None]
     packed = operators.bending * (t * thickness[:, None] ** 2)
     packed[:, : operators.membrane.shape[1]] += operators.membrane * t
     count = len(pattern.indices)

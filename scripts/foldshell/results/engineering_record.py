@@ -1,0 +1,205 @@
+"""What engineering.json and engineering.npz say of a judged state."""
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict
+from typing import Any
+
+import numpy as np
+
+from foldshell.checks.stability import require_factor
+from foldshell.checks.strength import CRITERIA
+from foldshell.checks.strips import utilization_of_strips
+from foldshell.checks.utilization import panel_utilization
+from foldshell.loads.cases import surface_loads
+from foldshell.records.analysis import AnalysisRecord
+from foldshell.records.analysis_arrays import AnalysisArrays
+from foldshell.records.engineering import (
+    CombinationFactors,
+    EngineeringArrays,
+    EngineeringRecord,
+    Measures,
+)
+from foldshell.records.mesh_convergence import MeshConvergenceRecord
+from foldshell.records.sheet_arrays import MeshArrays
+from foldshell.results.engineering import Judged, judge_state
+from foldshell.results.engineering_combinations import find_engineering_combinations
+from foldshell.results.engineering_state import EngineeringState, analyse_final_state
+from foldshell.results.section_forces import COMPONENTS, average_panels
+from foldshell.settings.checks import Checks
+from foldshell.settings.stage import StageSettings
+from foldshell.shell.results import panel_area
+from foldshell.shell.stress import cell_points, evaluate, stress_resultants, surface_stresses
+from foldshell.shell.supports import share_supported_nodes
+from foldshell.sizing.iteration import AnalysisCase
+
+POINTS = 6
+"""Points along an element edge for panel means: 36 an element, within 1 % of 144."""
+TABLED = ("von_mises", "rankine")
+"""Criteria whose measures stand side by side in every table."""
+
+
+def check_final_state(
+    case: AnalysisCase,
+    settings: StageSettings,
+    final: AnalysisArrays,
+    shell: MeshArrays,
+    span: float,
+    errors: MeshConvergenceRecord,
+    report: AnalysisRecord,
+) -> tuple[EngineeringRecord, EngineeringArrays]:
+    """Analyse the state of final.npz under the engineering combinations and judge it; span m.
+
+    `settings` are those of the stages `size` and `checks`, `shell` the arrays of mesh.npz.
+    """
+    combinations, checks = find_engineering_combinations(settings), settings.checks
+    state = analyse_final_state(case, combinations, final.thickness, checks, final.buckling_modes)
+    judged = judge_state(state, checks, span, errors, report.model_warnings or ())
+    measures = measure_loop_state(state, final, len(settings.combinations.strength))
+    return make_record(state, judged, checks, measures, shell)
+
+
+def measure_loop_state(state: EngineeringState, final: AnalysisArrays, count: int) -> dict:
+    """Return `Measures` of the loop's own strength combinations, the first `count` columns of the
+    displacements of final.npz, by criterion."""
+    model, material = state.case.model, state.case.material
+    if state.strips is None or final.displacement is None or final.utilization_cell is None:
+        return {}
+    moved = final.displacement[:, :count]
+    found = stress_resultants(model.operators, moved, state.thickness, material.youngs_modulus)
+    flat = cell_points(POINTS)
+    force, moment = (evaluate(model.operators, one, flat) for one in (found.force, found.moment))
+    stress = surface_stresses(force, moment, state.thickness)
+    names = dict.fromkeys((*TABLED, material.criterion))
+    return {name: _measure(state, found, stress, final, name) for name in names}
+
+
+def _measure(state, found, stress, final: AnalysisArrays, name: str) -> Measures:
+    model, material = state.case.model, state.case.material
+    sized, criterion = model.sized_panels, CRITERIA[name]
+    if name == material.criterion:
+        mean = final.utilization_panel_mean
+    else:
+        point = criterion(stress, material).max(axis=(0, 3))
+        mean = panel_utilization(model, point, "panel_mean")[:sized]
+    rows = state.strips.panel < sized
+    strips = utilization_of_strips(state.strips, found, state.thickness, material, criterion)
+    area = panel_area(model)[:sized]
+    return Measures(
+        utilization_panel_mean_max=float(mean.max()),
+        utilization_strip_max=float(strips[rows].max()),
+        panels_above_one=int((mean > 1).sum()),
+        area_share_above_one=float(area[mean > 1].sum() / area.sum()),
+    )
+
+
+def make_record(
+    state: EngineeringState,
+    judged: Judged,
+    checks: Checks,
+    measures: Mapping[str, Measures],
+    shell: MeshArrays,
+) -> tuple[EngineeringRecord, EngineeringArrays]:
+    """Return the record and the arrays of a judged state; `shell` are those of mesh.npz."""
+    required = require_factor(checks, state.case.material.kind)
+    arrays, edges = collect_arrays(state, shell)
+    record = EngineeringRecord(
+        verdict=judged.verdict,
+        reason=judged.reason,
+        material_kind=state.case.material.kind,
+        checks=dict(judged.checks),
+        buckling_terms={**asdict(required), "product": required.product,
+                        "required": required.value},
+        loop_criterion=state.case.material.criterion,
+        measures=dict(measures),
+        combinations=CombinationFactors(**{
+            name: {key: dict(one) for key, one in getattr(state.combinations, name).items()}
+            for name in ("strength", "characteristic", "quasi_permanent")
+        }),
+        buckling_factor=_list_factors(state),
+        loads=sum_cases(state),
+        reactions=edges,
+        analyses=state.analyses,
+        panels=describe_panels(state, judged, arrays),
+    )  # fmt: skip
+    return record, arrays
+
+
+def _list_factors(state: EngineeringState) -> dict[str, float | None]:
+    if state.short.buckling is None:
+        return {}
+    pairs = zip(state.short.names, state.short.buckling.factors.tolist(), strict=True)
+    return {name: factor if np.isfinite(factor) else None for name, factor in pairs}
+
+
+def sum_cases(state: EngineeringState) -> dict[str, tuple[float, ...]]:
+    """Return the resultant of each load case over the shell, kN."""
+    model, cases = state.case.model, state.case.cases
+    normal, area = model.operators.geometry.frame[:, 2], model.operators.geometry.area
+    surface = surface_loads(normal, state.thickness, cases, model.self_weight_only)
+    total = np.einsum("e,exk->kx", area, surface)
+    return {one.case: tuple(total[k].tolist()) for k, one in enumerate(cases)}
+
+
+def collect_arrays(
+    state: EngineeringState, shell: MeshArrays
+) -> tuple[EngineeringArrays, dict[str, dict[str, tuple]]]:
+    """Return reactions, loads and section forces; the reactions of edges by combination as well.
+
+    Nothing of a mechanism.
+    """
+    if state.resultants is None:
+        return EngineeringArrays(), {}
+    model = state.case.model
+    reactions, nodes = state.reactions(), model.supported_nodes
+    shares = share_supported_nodes(model.mesh, shell.support_pairs, shell.support_border, nodes)
+    edges = {name: np.tensordot(share, reactions, 1) for name, share in shares.items()}
+    vertices = np.unique(shell.support_pairs)
+    places = shell.vertices[vertices]
+    away = np.linalg.norm(model.mesh.nodes[nodes][:, None] - places, axis=2)
+    sums = np.zeros((len(vertices), *reactions.shape[1:]))
+    np.add.at(sums, away.argmin(axis=1), reactions)
+    arrays = EngineeringArrays(
+        vertex=vertices,
+        vertex_place=places,
+        vertex_reaction=sums,
+        edge_reaction=np.stack(list(edges.values())),
+        load_sum=state.load_sums(),
+        panel_forces=average_panels(model.operators, state.strips, state.resultants),
+    )
+    return arrays, {name: _by_combination(state.short.names, own) for name, own in edges.items()}
+
+
+def _by_combination(names: Sequence[str], values: np.ndarray) -> dict[str, tuple]:
+    """Return (3, c) as a vector by the name of each combination."""
+    return {name: tuple(values[:, k].tolist()) for k, name in enumerate(names)}
+
+
+def describe_panels(
+    state: EngineeringState, judged: Judged, arrays: EngineeringArrays
+) -> dict[str, tuple[Any, ...]]:
+    """Return what stands in one row per sized panel, an array by each name.
+
+    Envelopes of n, m and v are those of the means over the panel, of all strength combinations.
+    """
+    model = state.case.model
+    count, mesh = model.sized_panels, model.mesh
+    area = panel_area(model)
+    middle = mesh.nodes[mesh.corners].mean(axis=1) * model.operators.geometry.area[:, None]
+    centroid = np.stack([np.bincount(mesh.panel, middle[:, k]) for k in range(3)], axis=1)
+    centroid /= area[:, None]
+    found: dict[str, Any] = {
+        "panel": np.arange(count),
+        "thickness_m": state.thickness[np.unique(mesh.panel, return_index=True)[1]][:count],
+        "area_m2": area[:count],
+        **{f"centroid_{axis}_m": centroid[:count, k] for k, axis in enumerate("xyz")},
+    }
+    if state.resultants is not None:
+        names = np.array(list(state.combinations.strength))
+        found["strength_utilization"] = judged.used[:count].max(axis=1)
+        found["governing_combination"] = names[judged.used[:count].argmax(axis=1)]
+        found["cracked"] = state.cracked_panels[:count]
+        forces = arrays.panel_forces[: state.strength_count, :count]
+        for k, name in enumerate(COMPONENTS):
+            found[f"{name}_min"] = forces[..., k].min(axis=0)
+            found[f"{name}_max"] = forces[..., k].max(axis=0)
+    return {name: tuple(values.tolist()) for name, values in found.items()}
