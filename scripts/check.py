@@ -13,6 +13,7 @@ from foldshell.records.sheet_arrays import MeshArrays
 from foldshell.results.engineering_record import check_final_state
 from foldshell.settings.analysed import ANALYSED
 from foldshell.settings.checks import Checks
+from foldshell.settings.codes import Codes
 from foldshell.settings.stage import Plain, read_stage
 from foldshell.sizing.case import open_case
 from foldshell.workbook.engineering import write_engineering
@@ -33,7 +34,7 @@ def main(
     `paths` are mesh, arrays (npz), final and mesh_convergence (json); `settings` are those of the
     stages `size` and `checks`.
     """
-    given, report = read_stage(settings, *ANALYSED, Checks), read_analysis(paths["final"])
+    given, report = read_stage(settings, *ANALYSED, Codes, Checks), read_analysis(paths["final"])
     final = read_typed_arrays(paths["arrays"], AnalysisArrays)
     shell = read_typed_arrays(paths["mesh"], MeshArrays)
     errors = read_record(paths["mesh_convergence"], MeshConvergenceRecord)

@@ -11,8 +11,10 @@ from foldshell.checks.strength import CRITERIA
 from foldshell.checks.strips import utilization_of_strips
 from foldshell.checks.utilization import panel_utilization
 from foldshell.loads.cases import surface_loads
+from foldshell.loads.combinations import engineering_combinations
 from foldshell.records.analysis import AnalysisRecord
 from foldshell.records.analysis_arrays import AnalysisArrays
+from foldshell.records.arrays import list_arrays
 from foldshell.records.engineering import (
     CombinationFactors,
     EngineeringArrays,
@@ -22,14 +24,13 @@ from foldshell.records.engineering import (
 from foldshell.records.mesh_convergence import MeshConvergenceRecord
 from foldshell.records.sheet_arrays import MeshArrays
 from foldshell.results.engineering import Judged, judge_state
-from foldshell.results.engineering_combinations import find_engineering_combinations
 from foldshell.results.engineering_state import EngineeringState, analyse_final_state
 from foldshell.results.section_forces import COMPONENTS, average_panels
 from foldshell.settings.checks import Checks
 from foldshell.settings.stage import StageSettings
+from foldshell.shell.held_supports import sum_supports
 from foldshell.shell.results import panel_area
 from foldshell.shell.stress import cell_points, evaluate, stress_resultants, surface_stresses
-from foldshell.shell.supports import share_supported_nodes
 from foldshell.sizing.iteration import AnalysisCase
 
 POINTS = 6
@@ -51,7 +52,7 @@ def check_final_state(
 
     `settings` are those of the stages `size` and `checks`, `shell` the arrays of mesh.npz.
     """
-    combinations, checks = find_engineering_combinations(settings), settings.checks
+    combinations, checks = engineering_combinations(settings.loads, settings.codes), settings.checks
     state = analyse_final_state(case, combinations, final.thickness, checks, final.buckling_modes)
     judged = judge_state(state, checks, span, errors, report.model_warnings or ())
     measures = measure_loop_state(state, final, len(settings.combinations.strength))
@@ -151,10 +152,10 @@ def collect_arrays(
         return EngineeringArrays(), {}
     model = state.case.model
     reactions, nodes = state.reactions(), model.supported_nodes
-    shares = share_supported_nodes(model.mesh, shell.support_pairs, shell.support_border, nodes)
-    edges = {name: np.tensordot(share, reactions, 1) for name, share in shares.items()}
-    vertices = np.unique(shell.support_pairs)
-    places = shell.vertices[vertices]
+    edges = sum_supports(model.mesh, list_arrays(shell), nodes, reactions)
+    vertices = nodes[nodes < len(shell.vertices)]  # the first nodes of a mesh are its vertices
+    vertices = vertices if len(vertices) else nodes
+    places = model.mesh.nodes[vertices]
     away = np.linalg.norm(model.mesh.nodes[nodes][:, None] - places, axis=2)
     sums = np.zeros((len(vertices), *reactions.shape[1:]))
     np.add.at(sums, away.argmin(axis=1), reactions)

@@ -8,8 +8,8 @@ import numpy as np
 from foldshell.checks.materials import CONCRETE, STEEL
 from foldshell.checks.strength import utilization_tension
 from foldshell.checks.strips import Strips, find_strips, largest_of_panels, utilization_of_strips
-from foldshell.results.engineering_combinations import CombinationSet
 from foldshell.settings.checks import Checks
+from foldshell.settings.combination_rules import CombinationSet
 from foldshell.settings.material import Material
 from foldshell.shell.analysis import AnalysisResult, analyse_shell
 from foldshell.shell.results import support_reactions, translations

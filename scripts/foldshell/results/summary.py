@@ -68,7 +68,7 @@ def make_summary_row(design: Row, folder: str | Path) -> SummaryRow:
         mesh_error=study and study.mesh_error,
         buckling_mesh_error=study and study.buckling_mesh_error,
         **{key: quality and getattr(quality, key) for key in _OF_FOLDING},
-        **_describe_engineering(folder / "checks/engineering.json", last),
+        **_describe_engineering(folder / "checks/engineering.json", delivered),
         crosscheck=_find_outcome(folder / "crosscheck/comparison.json"),
     )
 
