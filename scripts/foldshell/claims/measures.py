@@ -89,7 +89,7 @@ def measure_utilization(
     """Return how even panels are used, and how many are above 1; None without an answer.
 
     `mesh` are the arrays of mesh.npz; `measure` is the utilization of a panel that limits hold
-    for, panel_mean or element_max.
+    for.
     """
     used = arrays.utilization_panel_mean
     if used is None:

@@ -10,7 +10,7 @@ from foldshell.exchange.panels_of_mesh import Edges, classify, find_edges, find_
 from foldshell.files.errors import InputError
 from foldshell.files.whole import Json, read_json
 from foldshell.loads.cases import make_load_cases
-from foldshell.records.analysis import AnalysisRecord
+from foldshell.records.analysis import DECIDES, AnalysisRecord
 from foldshell.records.analysis_arrays import AnalysisArrays, ClassesArrays
 from foldshell.records.arrays import list_arrays, read_typed_arrays
 from foldshell.records.iteration import read_iteration
@@ -153,7 +153,8 @@ def _panel_values(
 ) -> dict[str, np.ndarray]:
     """Return results by name, (P + B,), nan where a panel has none."""
     columns = {}
-    for measure in ("panel_mean", "element_max"):
+    measures = [name for name in DECIDES if final.utilization(name) is not None]
+    for measure in dict.fromkeys(["panel_mean", "element_max", *measures]):
         values = np.full(count, np.nan)
         values[:sized] = final.utilization(measure)
         beam = final.edge_beam_utilization(measure)

@@ -187,6 +187,9 @@ def _describe_deciding(view: DesignView) -> str:
     mean = f"panel mean at most {view.state.report.utilization_panel_mean_max:.2f}"
     if DECIDES[view.sizing.measure] == "utilization_max":
         return f"cells at most {view.state.utilization.max():.2f} (decides), {mean}"
+    if view.sizing.measure != "panel_mean" and view.state.report.state == "ok":
+        decides = getattr(view.state.report, DECIDES[view.sizing.measure])
+        return f"{view.sizing.measure} at most {decides:.2f} (decides), {mean}"
     return f"{mean} (decides)"
 
 

@@ -36,6 +36,10 @@ class Criteria:
         "largest utilization of a result cell, at most its limit", "-",
         "utilization, largest of all points", left_out=True,
     )  # fmt: skip
+    utilization_strip: Criterion | None = entry(
+        "largest utilization of the mean forces of a facet or a strip, at most its limit", "-",
+        "utilization, largest strip mean", left_out=True,
+    )  # fmt: skip
     utilization_min: Criterion | None = entry(
         "the same largest value, at least its lower limit: the shell is used", "-",
         "the same, at least", left_out=True,
@@ -74,7 +78,11 @@ class Criteria:
         return [about.key for about, item in self.items() if not item.met]
 
 
-DECIDES = {"panel_mean": "utilization_panel_mean_max", "element_max": "utilization_max"}
+DECIDES = {
+    "panel_mean": "utilization_panel_mean_max",
+    "element_max": "utilization_max",
+    "strip": "utilization_strip_max",
+}
 """What the loop holds against the limit of utilization, by its measure."""
 
 
@@ -118,6 +126,11 @@ class ShellState:
         "largest mean utilization of a panel: what the paper's measure holds against its limit",
         "-", "utilization, largest panel mean", left_out=True,
     )  # fmt: skip
+    utilization_strip_max: float | None = entry(
+        "largest utilization of the mean forces of a facet or of a strip beside a fold or border, "
+        "where the loop sizes by it",
+        "-", "utilization, largest strip mean", left_out=True,
+    )  # fmt: skip
     governing_combination: str | None = entry(
         "strength combination under which the most utilized panel, by the measure of the loop, is "
         "used most",
@@ -154,6 +167,9 @@ class ShellState:
     )
     edge_beam_utilization_panel_mean_max: float | None = entry(
         "largest mean utilization of a panel of the edge beam", "-", left_out=True
+    )
+    edge_beam_utilization_strip_max: float | None = entry(
+        "largest utilization of a strip of the edge beam", "-", left_out=True
     )
 
     @property

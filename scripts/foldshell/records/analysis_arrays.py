@@ -22,11 +22,17 @@ class AnalysisArrays:
     )
     utilization_panel_mean: np.ndarray | None = array("P", "-", "area mean over a panel")
     utilization_element_max: np.ndarray | None = array("P", "-", "largest result cell of a panel")
+    utilization_strip: np.ndarray | None = array(
+        "P", "-", "largest facet or strip mean of a panel, where the loop sizes by it"
+    )
     edge_beam_utilization_panel_mean: np.ndarray | None = array(
         "B", "-", "area mean over a panel of the edge beam"
     )
     edge_beam_utilization_element_max: np.ndarray | None = array(
         "B", "-", "largest result cell of a panel of the edge beam"
+    )
+    edge_beam_utilization_strip: np.ndarray | None = array(
+        "B", "-", "largest facet or strip mean of a panel of the edge beam"
     )
     edge_beam_panel: np.ndarray | None = array("B", "", "panel of the sheet that holds each")
     displacement: np.ndarray | None = array(

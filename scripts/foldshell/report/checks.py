@@ -11,8 +11,9 @@ from foldshell.records.entry import Entry
 from foldshell.report.markup import format_number
 from foldshell.report.places import PanelPlace, describe_place, read_panels
 
-LIMITS = ("utilization_panel_mean", "utilization_element_max", "displacement_vertical_m",
-          "edge_beam_utilization")  # fmt: skip
+OF_PANELS = ("utilization_panel_mean", "utilization_element_max", "utilization_strip")
+"""Criteria on the utilization of panels, by the measure of the loop."""
+LIMITS = (*OF_PANELS, "displacement_vertical_m", "edge_beam_utilization")
 """Criteria of the sizing loop that are limits of a structure; the others stop the loop."""
 ROUNDING = 1e-6
 """Tenths of a per cent by which the share of a limit may miss a whole one in binary numbers."""
@@ -69,7 +70,7 @@ def _find_where(key: str, final: AnalysisRecord, panels: Mapping[str, PanelPlace
         place = final.displacement_place_m
         at = f" at {describe_place(place)}" if place else ""
         return f"combination {final.displacement_combination}{at}"
-    if key not in ("utilization_panel_mean", "utilization_element_max"):
+    if key not in OF_PANELS:
         return ""
     governing = final.governing_combination
     parts = [f"combination {governing}"] if governing else []

@@ -52,6 +52,6 @@ def read_panels(final: str | Path, folded: str | Path) -> dict[str, PanelPlace]:
         sheet = read_typed_arrays(folded, FoldedArrays)
     except InputError:
         return {}
-    names = ("utilization_panel_mean", "utilization_element_max")
+    names = ("utilization_panel_mean", "utilization_element_max", "utilization_strip")
     found = {name: find_panel(getattr(arrays, name), sheet) for name in names}
     return {name: place for name, place in found.items() if place is not None}

@@ -24,6 +24,8 @@ def say_measure(final: AnalysisRecord) -> str:
     """Return which utilization decides, nothing where none was held against a limit."""
     if final.criteria.utilization_element_max is not None:
         return "The largest utilization of all points decides."
+    if final.criteria.utilization_strip is not None:
+        return "The largest mean over a facet or a strip beside a fold or border decides."
     if final.criteria.utilization_panel_mean is not None:
         return (
             "The mean utilization of a panel decides; peaks above the limit at points (red in the "

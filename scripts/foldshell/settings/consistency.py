@@ -7,9 +7,17 @@ from foldshell.settings.loads import Combinations, Loads
 from foldshell.settings.nearest import hint_nearest
 from foldshell.settings.sizing import Sizing
 
+NO_MEASURES = ("reinforced",)
+"""Measures that have a name and nothing behind it yet."""
+
 
 def check_sizing(sizing: Sizing, source: str) -> None:
-    """Check least <= start <= largest thickness and the order of the dead band."""
+    """Check least <= start <= largest thickness, the order of the dead band and the measure."""
+    if sizing.measure in NO_MEASURES:
+        raise InputError(
+            f"{source}: sizing.measure: {sizing.measure!r}: panels cannot be sized with their "
+            "reinforcement yet: panel_mean, element_max or strip is allowed"
+        )
     least, start = sizing.least_thickness, sizing.start_thickness
     if least > sizing.largest_thickness:
         raise InputError(

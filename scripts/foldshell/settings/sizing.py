@@ -22,9 +22,10 @@ class Sizing(Group):
         "least volume that keeps utilization, displacement and buckling factor, by gradients.",
     )  # fmt: skip
     measure: str = setting(
-        "panel_mean", choices=("panel_mean", "element_max"), stages=_LOOP,
-        meaning="Utilization of a panel, its area mean (does not hang on the mesh) or the largest "
-        "value in it (the paper's).",
+        "panel_mean", choices=("panel_mean", "element_max", "strip", "reinforced"), stages=_LOOP,
+        meaning="Utilization of a panel: its area mean (does not hang on the mesh), the largest "
+        "value in it (the paper's), or the largest of its facet means and of the means over "
+        "strips along its folds and borders (local, and settles with the mesh).",
     )  # fmt: skip
     start_thickness: float = setting(
         150, unit="mm", above=0, maximum=10000, stages=("start", "size", "study"),

@@ -5,6 +5,8 @@ from pathlib import Path
 
 import numpy as np
 
+from foldshell.checks.measures import NEED_STRIPS, STRIP_WIDTH
+from foldshell.checks.strips import find_strips
 from foldshell.files.errors import InputError
 from foldshell.files.whole import hash_data, hash_file
 from foldshell.loads.cases import make_load_cases
@@ -52,7 +54,8 @@ def make_case(arrays: Mapping[str, np.ndarray], settings: StageSettings) -> Anal
     asked = sizing.rule in NEED_CONSTRAINTS
     factor_min = least_factor_due(sizing) if asked else None
     notes = arrays.get("support_warnings")
-    return AnalysisCase(
-        model, material, cases, settings.combinations, settings.analysis, sizing, factor_min,
-        () if notes is None else tuple(map(str, notes.tolist())), place_on_model(model, cases),
-    )  # fmt: skip
+    strips = find_strips(model.operators, STRIP_WIDTH) if sizing.measure in NEED_STRIPS else None
+    groups = settings.combinations, settings.analysis, sizing
+    words = () if notes is None else tuple(map(str, notes.tolist()))
+    placed = place_on_model(model, cases)
+    return AnalysisCase(model, material, cases, *groups, factor_min, words, placed, strips)

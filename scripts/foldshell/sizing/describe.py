@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from foldshell.checks.measures import MEASURES, StressState
 from foldshell.checks.utilization import Utilization, area_percentile
 from foldshell.records.analysis import AnalysisRecord
 from foldshell.records.analysis_arrays import AnalysisArrays
@@ -30,7 +31,7 @@ class Analysed:
     """What the report of an analysis is made of; `thickness` is that of elements, (E,) m.
 
     `panels` and `edge_beam_panels` hold the utilization of the sized panels (P,) and of an edge
-    beam (B,) by measure. They are empty, and `utilization` is None, where the analysis left no
+    beam (B,) by measure. They are empty, and `stress` is None, where the analysis left no
     displacements to rely on.
     """
 
@@ -38,9 +39,14 @@ class Analysed:
     task: IterationTask
     thickness: np.ndarray
     result: AnalysisResult
-    utilization: Utilization | None = None
+    stress: StressState | None = None
     panels: Mapping[str, np.ndarray] = field(default_factory=dict)
     edge_beam_panels: Mapping[str, np.ndarray] = field(default_factory=dict)
+
+    @property
+    def utilization(self) -> Utilization | None:
+        """Utilization at points and in cells, None where there is none."""
+        return self.stress and self.stress.utilization
 
     @property
     def downward(self) -> tuple[float, int, str]:
@@ -104,6 +110,7 @@ def describe_sheet(done: Analysed, record: AnalysisRecord) -> AnalysisRecord:
         utilization_p99=area_percentile(model, done.utilization.point[sheet]),
         utilization_mean=float(area @ cell.mean(axis=1) / area.sum()),
         utilization_panel_mean_max=float(done.panels["panel_mean"].max()),
+        utilization_strip_max=_find_largest(done.panels, "strip"),
         governing_combination=_find_governing(done),
         displacement_vertical_max_m=down,
         displacement_combination=combination,
@@ -115,14 +122,14 @@ def describe_sheet(done: Analysed, record: AnalysisRecord) -> AnalysisRecord:
     )
 
 
+def _find_largest(panels: Mapping[str, np.ndarray], measure: str) -> float | None:
+    return float(panels[measure].max()) if measure in panels else None
+
+
 def _find_governing(done: Analysed) -> str:
     """Return the strength combination under which the most utilized panel is used most."""
-    model, measure = done.case.model, done.case.sizing.measure
-    worst = int(done.panels[measure].argmax())
-    own = np.flatnonzero(model.mesh.panel == worst)
-    cells = done.utilization.combination[:, own].mean(axis=3)
-    area = model.operators.geometry.area[own]
-    used = cells.mean(axis=2) @ area if measure == "panel_mean" else cells.max(axis=(1, 2))
+    measure = done.case.sizing.measure
+    used = MEASURES[measure].combinations(done.stress, int(done.panels[measure].argmax()))
     return list(done.case.combinations.strength)[int(used.argmax())]
 
 
@@ -136,6 +143,7 @@ def describe_edge_beam(done: Analysed, record: AnalysisRecord) -> AnalysisRecord
         edge_beam_volume_m3=float(split_area(model)[1] @ model.fixed_thickness),
         edge_beam_utilization_max=float(done.utilization.cell[model.self_weight_only].max()),
         edge_beam_utilization_panel_mean_max=float(done.edge_beam_panels["panel_mean"].max()),
+        edge_beam_utilization_strip_max=_find_largest(done.edge_beam_panels, "strip"),
     )
 
 

@@ -12,7 +12,8 @@ from foldshell.sizing.classes import ThicknessClasses, group_thicknesses
 from foldshell.sizing.iteration import AnalysisCase, IterationTask
 from foldshell.sizing.rounding import round_thickness
 
-CRITERIA = ("utilization_panel_mean", "utilization_element_max", "displacement_vertical_m",
+CRITERIA = ("utilization_panel_mean", "utilization_element_max", "utilization_strip",
+            "displacement_vertical_m",
             "edge_beam_utilization")  # fmt: skip
 """What a grouped design has to keep; changes of volume mean nothing to it."""
 

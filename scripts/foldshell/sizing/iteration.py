@@ -5,12 +5,13 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from foldshell.checks.utilization import compute_utilization, panel_utilization
+from foldshell.checks.measures import ALWAYS, MEASURES, StressState
+from foldshell.checks.strips import Strips
+from foldshell.checks.utilization import compute_utilization
 from foldshell.loads.cases import SurfaceLoad, combination_matrix
 from foldshell.records.analysis import AnalysisRecord
 from foldshell.records.analysis_arrays import AnalysisArrays
 from foldshell.settings.analysis import Analysis
-from foldshell.settings.field import list_settings
 from foldshell.settings.loads import Combinations
 from foldshell.settings.material import Material
 from foldshell.settings.sizing import Sizing
@@ -29,10 +30,6 @@ from foldshell.sizing.describe import (
 )
 from foldshell.sizing.linearise import linearise_constraints
 from foldshell.sizing.model_check import find_warnings
-
-MEASURES = list_settings(Sizing)["measure"].choices
-"""Utilization of a panel: area mean over its cells, or its largest cell; see
-`panel_utilization`."""
 
 
 @dataclass(frozen=True)
@@ -59,8 +56,8 @@ class IterationTask:
 @dataclass(frozen=True)
 class AnalysisCase:
     """A design ready for any thickness; `factor_min`, the buckling factor to keep, is None where no
-    constraints are asked for; `notes` are what is to be said of its supports; `placed` are the
-    loads of `cases` on the mesh."""
+    constraints are asked for, `strips` where the measure needs none; `notes` are what is to be said
+    of its supports; `placed` are the loads of `cases` on the mesh."""
 
     model: ShellModel
     material: Material
@@ -71,6 +68,7 @@ class AnalysisCase:
     factor_min: float | None
     notes: tuple[str, ...] = ()
     placed: PlacedLoads | None = None
+    strips: Strips | None = None
 
     def run(
         self, task: IterationTask, alone: bool = False
@@ -104,12 +102,14 @@ def _analyse(case: AnalysisCase, task: IterationTask) -> Analysed:
     if result.state not in ("ok", "not_converged"):
         return done
     strength = result.displacement[:, : len(groups.strength)]
-    utilization = compute_utilization(model, strength, thickness, material, result.imposed)
+    found = model, strength, thickness, material
+    utilization = compute_utilization(*found, result.imposed)
+    stress = StressState(*found, utilization, case.strips, result.imposed)
     panels, edge_beam_panels = {}, {}
-    for name in MEASURES:
-        values = panel_utilization(model, utilization.cell, name)
+    for name in dict.fromkeys([*ALWAYS, case.sizing.measure]):
+        values = MEASURES[name].panels(stress)
         panels[name], edge_beam_panels[name] = np.split(values, [model.sized_panels])
-    return replace(done, utilization=utilization, panels=panels, edge_beam_panels=edge_beam_panels)
+    return replace(done, stress=stress, panels=panels, edge_beam_panels=edge_beam_panels)
 
 
 def _describe(done: Analysed) -> AnalysisRecord:
@@ -168,8 +168,7 @@ def _add_constraints(done: Analysed, factor_min: float, arrays: AnalysisArrays) 
     case = done.case
     factors = combination_matrix(case.combinations.all, case.placed.names)
     found = linearise_constraints(
-        case.model, done.result, done.thickness, case.material, case.placed.weight @ factors,
-        done.utilization,
+        done.result, done.stress, case.placed.weight @ factors,
         case.sizing, done.task.span, factor_min,
     )  # fmt: skip
     return replace(

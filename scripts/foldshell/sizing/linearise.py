@@ -9,14 +9,16 @@ Source: Haftka & Gurdal (1992) Elements of Structural Optimization, sections 7.2
 
 import numpy as np
 
-from foldshell.checks.utilization import Utilization, panel_utilization
-from foldshell.settings.material import Material
+from foldshell.checks.measures import MEASURES, StressState
 from foldshell.settings.sizing import Sizing
 from foldshell.shell.analysis import AnalysisResult, ShellModel
 from foldshell.shell.results import panel_area, translations
 from foldshell.sizing.adjoint import AdjointModel, open_adjoint
 from foldshell.sizing.constraints import Constraints
 from foldshell.sizing.stress_adjoint import utilization_gradient
+
+FILTER = "filtered_dead_band"
+"""The rule that asks for displacement and buckling alone, and for panels that bulge."""
 
 ACTIVE = 0.7
 """Share of its limit from which a panel or a node takes part."""
@@ -36,12 +38,9 @@ rule `filtered_dead_band`."""
 
 
 def linearise_constraints(
-    model: ShellModel,
     result: AnalysisResult,
-    thickness: np.ndarray,
-    material: Material,
+    stress: StressState,
     load_slope: np.ndarray,
-    utilization: Utilization,
     sizing: Sizing,
     span: float,
     factor_min: float,
@@ -51,29 +50,28 @@ def linearise_constraints(
 
     Parameters
     ----------
-    thickness : (E,) m
     load_slope : (E, 3, c) kN/m3, change with thickness of the loads of the combinations, strength
         first
     span : m, whose fraction is the displacement limit
     factor_min : buckling factor that every combination keeps
     """
-    strength, limit = utilization.combination.shape[0], span / sizing.displacement_limit_span_over
+    model, strength = stress.model, stress.displacement.shape[1]
+    limit, filters = span / sizing.displacement_limit_span_over, sizing.rule == FILTER
     down = -translations(model, result.displacement)[:, 2, strength:] / limit
-    filters = sizing.rule == "filtered_dead_band"
     pairs = _find_low_nodes(model, down, NODES_OF_FILTER if filters else NODES_MAX)
     low = _find_low_factors(result, factor_min)
-    panels = np.empty(0, dtype=np.int64)
-    if not filters:
-        share = panel_utilization(model, utilization.cell, sizing.measure) / sizing.utilization_max
-        panels = np.flatnonzero(share > ACTIVE)
+    share = MEASURES[sizing.measure].panels(stress) / sizing.utilization_max
+    panels = np.flatnonzero((share > ACTIVE) & (not filters))
     area, sized = panel_area(model), slice(0, model.sized_panels)
     value, gradient = np.empty(0), np.empty((0, len(area)))
     if len(pairs) + len(low) + len(panels):
-        adjoint = open_adjoint(model, result, thickness, material, load_slope)
-        parts = [_displacement(adjoint, down, pairs, limit), _buckling(adjoint, low, factor_min)]
-        if len(panels):
-            measured = utilization_gradient(adjoint, utilization, panels, strength, sizing.measure)
-            parts.insert(0, (share[panels], measured / sizing.utilization_max))
+        adjoint = open_adjoint(model, result, stress.thickness, stress.material, load_slope)
+        slope = utilization_gradient(adjoint, stress, panels, sizing.measure)
+        parts = [
+            (share[panels], slope / sizing.utilization_max),
+            _displacement(adjoint, down, pairs, limit),
+            _buckling(adjoint, low, factor_min),
+        ]
         value, gradient = (np.concatenate(items) for items in zip(*parts, strict=True))
     thinning = None
     if filters:

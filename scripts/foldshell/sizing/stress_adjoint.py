@@ -2,38 +2,34 @@
 
 import numpy as np
 
+from foldshell.checks.measures import StressState
 from foldshell.checks.strength import CRITERIA
 from foldshell.checks.utilization import Utilization
 from foldshell.shell.reference import orthonormal_basis
 from foldshell.shell.results import panel_area
 from foldshell.shell.stress import sample_points, surface_stresses
 from foldshell.sizing.adjoint import AdjointModel
-
-BLOCK = 128
-"""Adjoint right-hand sides solved at once."""
-
-STRESS_STEP = 1.0
-"""Step in kPa of the central difference of the strength criterion: exact to 1e-8 of it."""
+from foldshell.sizing.strip_adjoint import BLOCK, gradient_of_strips, slope_of_criterion
 
 
 def utilization_gradient(
-    adjoint: AdjointModel,
-    utilization: Utilization,
-    panels: np.ndarray,
-    strength: int,
-    measure: str,
+    adjoint: AdjointModel, stress: StressState, panels: np.ndarray, measure: str
 ) -> np.ndarray:
     """Return d(utilization of a panel)/dt of every panel, (len(panels), P) 1/m.
 
     The combination and the surface that govern at a point are held, as is the cell of the largest
-    value for `element_max`: the gradient of a maximum where it has one.
+    value for `element_max` and the row of the largest mean for `strip`: the gradient of a maximum
+    where it has one.
 
     panels (k,) are numbers.
     """
+    if measure == "strip" and len(panels):
+        return gradient_of_strips(adjoint, stress, panels)
     mesh = adjoint.model.mesh
     gradient = np.zeros((len(panels), int(mesh.panel.max()) + 1))
     if not len(panels):
         return gradient
+    utilization, strength = stress.utilization, stress.displacement.shape[1]
     elements = np.flatnonzero(np.isin(mesh.panel, panels))
     row = np.searchsorted(panels, mesh.panel[elements])
     weight = _weights(adjoint, utilization, elements, measure)
@@ -92,10 +88,8 @@ def _stress_slopes(adjoint, elements: np.ndarray, strength: int):
     column, surface = np.divmod(governing, 3)
     element, point = np.indices(governing.shape)
     chosen = stress[surface, element, point, column]
-    steps = STRESS_STEP * np.eye(3)
-    difference = [criterion(chosen + h, material) - criterion(chosen - h, material) for h in steps]
     bending = chosen - force[element, point, column] / own[:, None, None]
-    return np.stack(difference, axis=-1) / (2 * STRESS_STEP), bending, column, surface - 1
+    return slope_of_criterion(chosen, material), bending, column, surface - 1
 
 
 def _strain_slopes(adjoint, elements, slope, surface, used):

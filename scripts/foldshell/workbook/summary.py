@@ -35,8 +35,10 @@ def write_summary(
         keys = [about.key for about in write_records(sheet, styles, SummaryRow, rows)]
         last = max(len(rows), 1) + 1
         sheet.autofilter(1, 0, last, len(keys) - 1)
-        column = keys.index(DECIDES[settings.sizing.measure])
-        mark_above(sheet, styles, (2, column, last, column), settings.sizing.utilization_max)
+        decides = DECIDES[settings.sizing.measure]
+        if decides in keys:
+            place = 2, keys.index(decides), last, keys.index(decides)
+            mark_above(sheet, styles, place, settings.sizing.utilization_max)
         overview = add_sheet(book, "overview", landscape=False)
         counts = Counter(row.state for row in rows)
         write_table(overview, styles, 0, _ENDINGS, sorted(counts.items()))

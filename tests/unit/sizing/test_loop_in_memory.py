@@ -44,7 +44,12 @@ def _run_files(folder, mesh, **sizing):
 
 
 @pytest.mark.parametrize(
-    "sizing", [{"least_thickness": 0.1}, {"rule": "optimality", "least_thickness": 0.1}]
+    "sizing",
+    [
+        {"least_thickness": 0.1},
+        {"rule": "optimality", "least_thickness": 0.1},
+        {"rule": "filtered_dead_band", "measure": "strip", "buckling_factor_min": 60.0},
+    ],
 )
 def test_same_numbers_as_in_files(tmp_path, sizing):
     mesh = write_small_mesh(tmp_path / "mesh.npz")

@@ -5,7 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from foldshell.checks.utilization import compute_utilization, panel_utilization
+from foldshell.checks.measures import MEASURES, StressState
+from foldshell.checks.strips import find_strips
+from foldshell.checks.utilization import compute_utilization
 from foldshell.loads.cases import combination_matrix, make_load_cases
 from foldshell.records.analysis import Criteria
 from foldshell.settings.analysis import Analysis
@@ -113,23 +115,21 @@ def compare_slopes(case, measure, size=1e-4):
     """Return values, change along a random direction, and central differences of all three."""
     model, material, plan, thickness, analyse = case
     rule = Sizing(measure=measure)
-    strength = len(plan.strength)
+    strength, strips = len(plan.strength), find_strips(model.operators, 0.3)
 
     def respond(t):
         result = analyse(t)
-        used = compute_utilization(
-            model, result.displacement[:, :strength], t[model.mesh.panel], material
-        )
-        panels = panel_utilization(model, used.cell, measure)
+        found = model, result.displacement[:, :strength], t[model.mesh.panel], material
+        stress = StressState(*found, compute_utilization(*found), strips)
+        panels = MEASURES[measure].panels(stress)
         down = -result.displacement[: 3 * len(model.mesh.nodes)][2::3, strength:]
         factors = np.empty(0) if result.buckling is None else result.buckling.factors
-        return result, used, panels, down.max() * 240 / 6.0, 1 / factors
+        return result, stress, panels, down.max() * 240 / 6.0, 1 / factors
 
-    result, used, *_ = respond(thickness)
+    result, stress, *_ = respond(thickness)
     found = linearise.linearise_constraints(
-        model, result, thickness[model.mesh.panel], material,
-        load_slope(model, material, plan), used, rule, 6.0, 1.0,
-    )  # fmt: skip
+        result, stress, load_slope(model, material, plan), rule, 6.0, 1.0
+    )
     way = size * thickness * np.random.default_rng(3).standard_normal(PANELS)
     one, two = respond(thickness + way)[2:], respond(thickness - way)[2:]
     exact = [(a - b) / 2 for a, b in zip(one, two, strict=True)]
@@ -142,7 +142,7 @@ def everything_counts(monkeypatch):
     monkeypatch.setattr(linearise, "FACTOR_ACTIVE", np.inf)
 
 
-@pytest.mark.parametrize("measure", ["panel_mean", "element_max"])
+@pytest.mark.parametrize("measure", ["panel_mean", "element_max", "strip"])
 def test_first_order_gradients_are_those_of_differences(everything_counts, measure):
     """Against central differences along a random direction: 1e-3 of the largest change is left
     to points at which the governing combination or surface changes within the step."""

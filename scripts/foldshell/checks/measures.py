@@ -1,0 +1,100 @@
+"""Measures: from a state of stress to one utilization per panel, which the loop sizes by.
+
+A measure is a function of a `StressState`; what is added to `MEASURES` under a name that the
+setting `sizing.measure` knows is computed, written and held against the limit as the others are.
+"""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from foldshell.checks.strips import Strips, largest_of_panels, utilization_of_strips
+from foldshell.checks.utilization import Utilization, panel_utilization
+from foldshell.settings.material import Material
+from foldshell.shell.analysis import ShellModel
+from foldshell.shell.stress import StressResultants, stress_resultants
+
+
+@dataclass(frozen=True)
+class StressState:
+    """Displacements (dofs, c) m and rad of the strength combinations, thickness (E,) m, the
+    utilization at points, the strips of the model, None where no measure asks for them, and imposed
+    strains (E, 2, c or more), None for none."""
+
+    model: ShellModel
+    displacement: np.ndarray
+    thickness: np.ndarray
+    material: Material
+    utilization: Utilization
+    strips: Strips | None = None
+    imposed: np.ndarray | None = None
+
+    @cached_property
+    def resultants(self) -> StressResultants:
+        """Membrane forces and moments of all elements."""
+        modulus, columns = self.material.youngs_modulus, self.displacement.shape[1]
+        imposed = None if self.imposed is None else self.imposed[..., :columns]
+        found = self.displacement, self.thickness, modulus, imposed
+        return stress_resultants(self.model.operators, *found)
+
+    @cached_property
+    def strip_utilization(self) -> np.ndarray:
+        """Utilization of each strip and facet in each combination, (S, c). Without unit."""
+        found = self.resultants, self.thickness, self.material
+        return utilization_of_strips(self.strips, *found)
+
+
+@dataclass(frozen=True)
+class Measure:
+    """`panels` gives the utilization of all panels (P,), `combinations` that of one panel in each
+    strength combination (c,), which tells what governs it."""
+
+    panels: Callable[[StressState], np.ndarray]
+    combinations: Callable[[StressState, int], np.ndarray]
+
+
+def _mean(state: StressState) -> np.ndarray:
+    return panel_utilization(state.model, state.utilization.cell, "panel_mean")
+
+
+def _mean_of(state: StressState, panel: int) -> np.ndarray:
+    own = np.flatnonzero(state.model.mesh.panel == panel)
+    cells = state.utilization.combination[:, own].mean(axis=3)
+    return cells.mean(axis=2) @ state.model.operators.geometry.area[own]
+
+
+def _largest(state: StressState) -> np.ndarray:
+    return panel_utilization(state.model, state.utilization.cell, "element_max")
+
+
+def _largest_of(state: StressState, panel: int) -> np.ndarray:
+    own = np.flatnonzero(state.model.mesh.panel == panel)
+    return state.utilization.combination[:, own].mean(axis=3).max(axis=(1, 2))
+
+
+def _strip(state: StressState) -> np.ndarray:
+    return largest_of_panels(state.strips, state.strip_utilization.max(axis=1))
+
+
+def _strip_of(state: StressState, panel: int) -> np.ndarray:
+    return state.strip_utilization[state.strips.panel == panel].max(axis=0)
+
+
+MEASURES = {
+    "panel_mean": Measure(_mean, _mean_of),
+    "element_max": Measure(_largest, _largest_of),
+    "strip": Measure(_strip, _strip_of),
+}
+"""The area mean over the cells of a panel, its largest cell, and the largest of facet means and
+means over strips along its folds and borders."""
+
+ALWAYS = ("panel_mean", "element_max")
+"""Measures that every analysis says, whatever it sizes by."""
+
+NEED_STRIPS = ("strip",)
+"""Measures that are taken from strips."""
+
+STRIP_WIDTH = 0.3
+"""Width of the strips, m."""
