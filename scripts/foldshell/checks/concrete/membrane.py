@@ -1,0 +1,61 @@
+"""Steel and concrete of a cracked membrane, EN 1992-1-1:2004 Annex F; tension positive."""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+
+@dataclass(frozen=True)
+class MembraneDesign:
+    """What a membrane needs; all in the unit of the forces it was found for.
+
+    Attributes
+    ----------
+    steel : (..., 2) forces of the bars along x and y, none below zero
+    strut : (...) largest principal compression of the concrete, none below zero
+    cracked : (...) bool, whether the concrete is cracked, so that its strut has the strength
+        nu f_cd (F.1 (4)) and not f_cd
+    """
+
+    steel: np.ndarray
+    strut: np.ndarray
+    cracked: np.ndarray
+
+
+def design_membrane(force: np.ndarray) -> MembraneDesign:
+    """f_x = |n_xy| + n_x, f_y = |n_xy| + n_y, strut 2 |n_xy|; with n_x < -|n_xy| f_x = 0,
+    f_y = n_xy^2 / |n_x| + n_y, strut |n_x| (1 + (n_xy / n_x)^2).
+
+    x is the direction with the more compressive force; the other order is exchanged. No steel
+    where both forces are compressive and n_x n_y >= n_xy^2.
+
+    Parameters
+    ----------
+    force : (..., 3) kN/m as xx, yy, xy
+
+    EN 1992-1-1:2004 Annex F, F.1 (2) to (4), equations F.2 to F.7.
+    """
+    x, y, xy = np.moveaxis(np.asarray(force, dtype=float), -1, 0)
+    exchanged = x > y
+    low, high = np.minimum(x, y), np.maximum(x, y)
+    shear = np.abs(xy)
+    steep = low < -shear  # the strut is steeper than 45 degrees, and needs one set of bars only
+    ratio = np.divide(shear, -low, out=np.zeros_like(shear), where=steep)
+    first = np.where(steep, 0.0, shear + low)
+    second = np.where(steep, ratio * shear, shear) + high
+    strut = np.where(steep, -low * (1 + ratio**2), 2 * shear)
+    whole = (high <= 0) & (low * high >= xy**2)
+    principal = np.hypot((high - low) / 2, xy) - (low + high) / 2
+    first, second = (np.where(whole, 0.0, one).clip(min=0.0) for one in (first, second))
+    pair = np.where(exchanged, second, first), np.where(exchanged, first, second)
+    return MembraneDesign(np.stack(pair, axis=-1), np.where(whole, principal, strut), ~whole)
+
+
+def concrete_forces(force: np.ndarray, steel: np.ndarray) -> np.ndarray:
+    """n_c = n - (f_x, f_y, 0): what the concrete carries (..., 3) kN/m, in equilibrium with bars.
+
+    force (..., 3), steel (..., 2) kN/m.
+    """
+    carried = np.array(force, dtype=float)
+    carried[..., :2] -= steel
+    return carried

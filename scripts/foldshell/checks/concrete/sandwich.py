@@ -1,0 +1,91 @@
+"""A shell as two covers in plane stress, whose levers follow what each cover needs.
+
+Marti, P. (1990), Design of concrete slabs for transverse shear, ACI Struct. J. 87(2), 180-190;
+EN 1992-2:2005 Annex LL. Forces in kN/m, moments in kNm/m, tension positive; a positive moment is
+tension at the bottom. The bottom stands before the top.
+"""
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from foldshell.checks.concrete.membrane import MembraneDesign, design_membrane
+
+PASSES = 3
+"""Times that levers are found and covers designed; the third moves levers by less than 1 %."""
+
+
+@dataclass(frozen=True)
+class Levels:
+    """Where covers may act and how strong they are.
+
+    `steel` m from the surface to the middle of a layer's two directions, (...) or one for all;
+    `strength` f_cd and `strut_strength` nu f_cd in kPa.
+    """
+
+    steel: np.ndarray | float
+    strength: float
+    strut_strength: float
+
+
+@dataclass(frozen=True)
+class SandwichDesign:
+    """What the two layers need.
+
+    Attributes
+    ----------
+    steel : (..., 2, 2) kN/m, bottom and top layer, bars along x and y
+    strut : (..., 2) kN/m, largest compression of each cover
+    strut_use : (..., 2) its share of what the depth of the cover carries
+    lever : (..., 2) m, distance of each cover from the middle surface
+    force : (..., 2, 3) kN/m, force of each cover
+    """
+
+    steel: np.ndarray
+    strut: np.ndarray
+    strut_use: np.ndarray
+    lever: np.ndarray
+    force: np.ndarray
+
+
+def split_between_covers(force: np.ndarray, moment: np.ndarray, lever: np.ndarray) -> np.ndarray:
+    """n_bottom = (z_top n + m) / z, n_top = (z_bottom n - m) / z, with z = z_bottom + z_top.
+
+    force, moment (..., 3) kN/m and kNm/m; lever (..., 2) m; returns (..., 2, 3) kN/m.
+    """
+    bottom, top = lever[..., 0, None], lever[..., 1, None]
+    return np.stack([top * force + moment, bottom * force - moment], axis=-2) / (
+        (bottom + top)[..., None]
+    )
+
+
+def design_sandwich(
+    force: np.ndarray, moment: np.ndarray, thickness: np.ndarray, levels: Levels
+) -> SandwichDesign:
+    """Annex F on each cover: at its steel where it needs steel, else at half the depth it needs.
+
+    Parameters
+    ----------
+    force, moment : (..., 3) kN/m and kNm/m as xx, yy, xy in the axes of the bars
+    thickness : (...) m, more than twice `levels.steel`
+    """
+    half = np.broadcast_to(np.asarray(thickness, float) / 2, np.shape(force)[:-1])[..., None]
+    at_steel = half - np.broadcast_to(levels.steel, half.shape[:-1])[..., None]
+    lever = np.repeat(at_steel, 2, axis=-1)
+    for left in reversed(range(PASSES)):
+        shared = split_between_covers(force, moment, lever)
+        found = design_membrane(shared)
+        if left:
+            lever = _find_levers(found, half, at_steel, levels)
+    depth = np.minimum(half, np.where(found.cracked, 2 * (half - at_steel), half))
+    strength = np.where(found.cracked, levels.strut_strength, levels.strength)
+    use = found.strut / (depth * strength)
+    return SandwichDesign(found.steel, found.strut, use, lever, shared)
+
+
+def _find_levers(
+    found: MembraneDesign, half: np.ndarray, at_steel: np.ndarray, levels: Levels
+) -> np.ndarray:
+    """Return the levers (..., 2) m of covers that need what was found; `half` is t / 2."""
+    depth = np.minimum(found.strut / levels.strength, half)
+    return np.where(found.steel.any(axis=-1), at_steel, half - depth / 2)
