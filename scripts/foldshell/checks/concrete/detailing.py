@@ -1,4 +1,7 @@
-"""Cover by exposure, bars that fit, ratio of steel; EN 1992-1-1:2004 4.4.1, 8.2, 9.3.1; m."""
+"""Cover by exposure, bars that fit, ratio of steel; EN 1992-1-1:2004 4.4.1, 8.2, 9.3.1; m.
+
+Arrays (k,) may have any number of axes.
+"""
 
 import numpy as np
 
@@ -51,17 +54,17 @@ def least_clear_distance(diameter: float, aggregate: float) -> float:
 
 
 def bar_spacing(area: np.ndarray, diameter: float) -> np.ndarray:
-    """s = (pi d^2 / 4) / a_s (...) m of bars of one diameter; inf where there are none.
+    """s = (pi d^2 / 4) / a_s (k,) m of bars of one diameter; inf where there are none.
 
-    area (...) m2/m.
+    area (k,) m2/m.
     """
     with np.errstate(divide="ignore"):
         return np.pi * diameter**2 / 4 / np.asarray(area, dtype=float)
 
 
 def largest_bar_spacing(thickness: np.ndarray) -> np.ndarray:
-    """s_max,slabs = min(2 h, 250 mm) (...) m, EN 1992-1-1:2004 9.3.1.1 (3), at concentrated loads.
+    """s_max,slabs = min(2 h, 250 mm) (k,) m, EN 1992-1-1:2004 9.3.1.1 (3), at concentrated loads.
 
-    thickness (...) m.
+    thickness (k,) m.
     """
     return np.minimum(2 * np.asarray(thickness), 0.25)

@@ -1,4 +1,7 @@
-"""Punching at fold vertices, EN 1992-1-1:2004 6.4; kN, m, kPa; tension positive."""
+"""Punching at fold vertices, EN 1992-1-1:2004 6.4; kN, m, kPa; tension positive.
+
+Arrays (k,) may have any number of axes.
+"""
 
 import numpy as np
 
@@ -18,11 +21,11 @@ def punching_resistance(
     fcd: float,
     gamma_c: float = 1.5,
 ) -> np.ndarray:
-    """v_Rd,c = (max(C k (100 rho f_ck)^(1/3), v_min) + k_1 sigma_cp) d (...) kN/m of perimeter.
+    """v_Rd,c = (max(C k (100 rho f_ck)^(1/3), v_min) + k_1 sigma_cp) d (k,) kN/m of perimeter.
 
     rho = sqrt(rho_x rho_y) <= 0.02; sigma_cp the mean of both directions.
 
-    depth (...) m, ratio (..., 2), stress (..., 2) kPa of the membrane. EN 1992-1-1:2004 6.4.4
+    depth (k,) m, ratio (..., 2), stress (..., 2) kPa of the membrane. EN 1992-1-1:2004 6.4.4
     (6.47).
     """
     both = np.sqrt(np.clip(ratio[..., 0] * ratio[..., 1], 0, None))
@@ -31,5 +34,5 @@ def punching_resistance(
 
 
 def face_resistance(depth: np.ndarray, fck: float, fcd: float) -> np.ndarray:
-    """v_Rd,max = 0.4 nu f_cd d (...) kN/m at the face, 6.4.5 (6.53 as corrected in 2014)."""
+    """v_Rd,max = 0.4 nu f_cd d (k,) kN/m at the face, 6.4.5 (6.53 as corrected in 2014)."""
     return 0.4 * 0.6 * (1 - fck / 1e3 / 250) * fcd * depth

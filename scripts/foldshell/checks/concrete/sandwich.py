@@ -12,7 +12,7 @@ import numpy as np
 from foldshell.checks.concrete.membrane import MembraneDesign, design_membrane
 
 PASSES = 3
-"""Times that levers are found and covers designed; the third moves levers by less than 1 %."""
+"""Times that levers are found anew; the third moves that of a slab by less than 0.1 %."""
 
 
 @dataclass(frozen=True)
@@ -54,8 +54,9 @@ def split_between_covers(force: np.ndarray, moment: np.ndarray, lever: np.ndarra
     force, moment (..., 3) kN/m and kNm/m; lever (..., 2) m; returns (..., 2, 3) kN/m.
     """
     bottom, top = lever[..., 0, None], lever[..., 1, None]
-    return np.stack([top * force + moment, bottom * force - moment], axis=-2) / (
-        (bottom + top)[..., None]
+    return (
+        np.stack([top * force + moment, bottom * force - moment], axis=-2)
+        / ((bottom + top)[..., None])
     )
 
 
@@ -72,11 +73,11 @@ def design_sandwich(
     half = np.broadcast_to(np.asarray(thickness, float) / 2, np.shape(force)[:-1])[..., None]
     at_steel = half - np.broadcast_to(levels.steel, half.shape[:-1])[..., None]
     lever = np.repeat(at_steel, 2, axis=-1)
-    for left in reversed(range(PASSES)):
-        shared = split_between_covers(force, moment, lever)
-        found = design_membrane(shared)
-        if left:
-            lever = _find_levers(found, half, at_steel, levels)
+    for _ in range(PASSES):
+        found = design_membrane(split_between_covers(force, moment, lever))
+        lever = _find_levers(found, half, at_steel, levels)
+    shared = split_between_covers(force, moment, lever)
+    found = design_membrane(shared)
     depth = np.minimum(half, np.where(found.cracked, 2 * (half - at_steel), half))
     strength = np.where(found.cracked, levels.strut_strength, levels.strength)
     use = found.strut / (depth * strength)

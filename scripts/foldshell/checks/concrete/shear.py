@@ -1,6 +1,7 @@
 """Shear of a plate without and with links, EN 1992-1-1:2004 6.2 and EN 1992-2:2005 Annex LL.
 
-kN, m, kPa; tension positive, so the code's compressive sigma_cp is minus the membrane stress.
+kN, m, kPa; tension positive, so the code's compressive sigma_cp is minus the membrane stress. Arrays
+(k,) may have any number of axes.
 """
 
 import numpy as np
@@ -13,7 +14,7 @@ RATIO_MAX = 0.02
 
 
 def principal_shear(shear: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """v_0 = sqrt(v_x^2 + v_y^2) and its direction as (cos, sin): (...) kN/m and (..., 2).
+    """v_0 = sqrt(v_x^2 + v_y^2) and its direction as (cos, sin): (k,) kN/m and (..., 2).
 
     shear (..., 2) kN/m. EN 1992-2:2005 Annex LL (LL.121, LL.122).
     """
@@ -24,13 +25,16 @@ def principal_shear(shear: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def along_direction(force: np.ndarray, direction: np.ndarray) -> np.ndarray:
-    """n_a = n_x cos^2 + n_y sin^2 + 2 n_xy sin cos (...) kN/m; force (..., 3), direction (..., 2)."""
+    """n_a = n_x cos^2 + n_y sin^2 + 2 n_xy sin cos (k,) kN/m.
+
+    force (..., 3) kN/m, direction (..., 2).
+    """
     cos, sin = direction[..., 0], direction[..., 1]
     return force[..., 0] * cos**2 + force[..., 1] * sin**2 + 2 * force[..., 2] * sin * cos
 
 
 def ratio_along(ratio: np.ndarray, direction: np.ndarray) -> np.ndarray:
-    """rho_l = rho_x cos^2 + rho_y sin^2 (...); ratio (..., 2). EN 1992-2:2005 (LL.123)."""
+    """rho_l = rho_x cos^2 + rho_y sin^2 (k,); ratio (..., 2). EN 1992-2:2005 (LL.123)."""
     return ratio[..., 0] * direction[..., 0] ** 2 + ratio[..., 1] * direction[..., 1] ** 2
 
 
@@ -42,16 +46,16 @@ def resistance_without_links(
     fcd: float,
     gamma_c: float = 1.5,
 ) -> np.ndarray:
-    """v_Rd,c = (max(C k (100 rho f_ck)^(1/3), v_min) + k_1 sigma_cp) d, at least 0; (...) kN/m.
+    """v_Rd,c = (max(C k (100 rho f_ck)^(1/3), v_min) + k_1 sigma_cp) d, at least 0; (k,) kN/m.
 
     C = 0.18 / gamma_c, k = 1 + sqrt(200 / d) <= 2 with d in mm, v_min = 0.035 k^1.5 f_ck^0.5,
     k_1 = 0.15, sigma_cp < 0.2 f_cd: membrane tension lowers it.
 
     Parameters
     ----------
-    depth : (...) d in m
-    ratio : (...) rho_l of the bars in tension, taken as 0.02 at most
-    stress : (...) kPa of the membrane, tension positive
+    depth : (k,) d in m
+    ratio : (k,) rho_l of the bars in tension, taken as 0.02 at most
+    stress : (k,) kPa of the membrane, tension positive
     fck, fcd : kPa
 
     EN 1992-1-1:2004 6.2.2 (6.2a, 6.2b, 6.3N).
@@ -60,7 +64,7 @@ def resistance_without_links(
 
 
 def stress_without_links(depth, ratio, stress, fck, fcd, gamma_c, k1) -> np.ndarray:
-    """Return v_Rd,c (...) kPa of 6.2.2 or, with k_1 = 0.1, of 6.4.4; see there for shapes."""
+    """Return v_Rd,c (k,) kPa of 6.2.2 or, with k_1 = 0.1, of 6.4.4; see there for shapes."""
     size = np.minimum(1 + np.sqrt(0.2 / np.asarray(depth)), 2.0)
     fraction = np.clip(ratio, 0.0, RATIO_MAX)
     bars = 0.18 / gamma_c * size * np.cbrt(100 * fraction * fck / MPA)
@@ -82,9 +86,9 @@ def forces_of_links(shear: np.ndarray, cot_theta: float) -> np.ndarray:
 def links_per_area(
     shear: np.ndarray, lever: np.ndarray, fyd: float, cot_theta: float
 ) -> np.ndarray:
-    """a_sw = v_0 / (z f_ywd cot(theta)) (...) m2 of links per m2 of shell.
+    """a_sw = v_0 / (z f_ywd cot(theta)) (k,) m2 of links per m2 of shell.
 
-    shear (...) v_0 in kN/m, lever (...) z in m, fyd kPa. EN 1992-1-1:2004 6.2.3 (6.8).
+    shear (k,) v_0 in kN/m, lever (k,) z in m, fyd kPa. EN 1992-1-1:2004 6.2.3 (6.8).
     """
     return shear / (lever * fyd * cot_theta)
 
@@ -92,12 +96,12 @@ def links_per_area(
 def resistance_of_struts(
     lever: np.ndarray, stress: np.ndarray, fck: float, fcd: float, cot_theta: float
 ) -> np.ndarray:
-    """v_Rd,max = alpha_cw z nu_1 f_cd / (cot(theta) + tan(theta)) (...) kN/m.
+    """v_Rd,max = alpha_cw z nu_1 f_cd / (cot(theta) + tan(theta)) (k,) kN/m.
 
     nu_1 = 0.6 (1 - f_ck / 250); alpha_cw = 1 in tension, 1 + s / f_cd up to s = 0.25 f_cd, 1.25 up
     to 0.5 f_cd, 2.5 (1 - s / f_cd) beyond.
 
-    lever (...) m, stress (...) kPa of the membrane, tension positive; EN 1992-1-1:2004 6.2.3
+    lever (k,) m, stress (k,) kPa of the membrane, tension positive; EN 1992-1-1:2004 6.2.3
     (6.9, 6.11N).
     """
     pressed = np.clip(-np.asarray(stress) / fcd, 0.0, 1.0)

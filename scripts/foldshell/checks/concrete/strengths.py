@@ -53,9 +53,7 @@ def find_strengths(
     fcd = alpha_cc * fck / gamma_c
     nu = 0.6 * (1 - mpa / 250)
     ecm = 22e6 * ((mpa + 8) / 10) ** 0.3
-    return Strengths(
-        fck, fcd, nu * fcd, fctm, 0.7 * fctm / gamma_c, fyk, fyk / gamma_s, ecm, es
-    )
+    return Strengths(fck, fcd, nu * fcd, fctm, 0.7 * fctm / gamma_c, fyk, fyk / gamma_s, ecm, es)
 
 
 def tension_strength(fck: float) -> float:
