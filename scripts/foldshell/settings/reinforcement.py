@@ -49,7 +49,7 @@ class Reinforcement(Group):
     )  # fmt: skip
     fck: float = setting(
         25, unit="MPa", above=0, maximum=1000,
-        meaning=f"Characteristic strength of concrete in compression ({_EC2}, Table 3.1: 12 to 90).",
+        meaning=f"Characteristic strength of concrete ({_EC2}, Table 3.1: 12 to 90 MPa).",
     )  # fmt: skip
     alpha_cc: float = setting(
         1.0, above=0, maximum=1, meaning=f"Of the design strength in compression ({_EC2}, 3.1.6)."

@@ -10,8 +10,8 @@ from foldshell.shell.mesh import ShellMesh
 from foldshell.shell.stiffness import ShellOperators
 from foldshell.shell.stress import StressResultants, cell_points, evaluate
 
-DIVISIONS = 8
-"""Cells along an edge of a facet, with one point each: 64 points in a facet."""
+DIVISIONS = 12
+"""Cells along an edge of a facet, with one point each: 144 points in a facet."""
 
 
 @dataclass(frozen=True)

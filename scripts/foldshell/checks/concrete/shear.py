@@ -1,7 +1,7 @@
 """Shear of a plate without and with links, EN 1992-1-1:2004 6.2 and EN 1992-2:2005 Annex LL.
 
-kN, m, kPa; tension positive, so the code's compressive sigma_cp is minus the membrane stress. Arrays
-(k,) may have any number of axes.
+kN, m, kPa; tension positive, so the code's compressive sigma_cp is minus the membrane stress.
+Arrays (k,) may have any number of axes.
 """
 
 import numpy as np
