@@ -95,6 +95,3 @@ ALWAYS = ("panel_mean", "element_max")
 
 NEED_STRIPS = ("strip",)
 """Measures that are taken from strips."""
-
-STRIP_WIDTH = 0.3
-"""Width of the strips, m."""

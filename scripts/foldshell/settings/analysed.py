@@ -1,9 +1,11 @@
 """The groups of settings that stages about a loaded shell share."""
 
 from foldshell.settings.analysis import Analysis
+from foldshell.settings.checks import Checks
 from foldshell.settings.loads import Combinations, Loads
 from foldshell.settings.material import Material
 from foldshell.settings.sizing import Sizing
 
 LOADED = (Material, Loads, Combinations)
-ANALYSED = (*LOADED, Analysis, Sizing)
+ANALYSED = (*LOADED, Analysis, Sizing, Checks)
+"""How a shell is analysed and sized; of the checks a loop takes the width of strips alone."""

@@ -10,9 +10,9 @@ class Checks(Group):
     """Engineering verdict, beside that of the paper's criteria."""
 
     strip_width: float = setting(
-        0.3, unit="m", above=0, maximum=100, stages=_STAGES,
+        0.3, unit="m", above=0, maximum=100, stages=(*_STAGES, "analyse", "size"),
         meaning="Width of the strips beside folds and borders over which forces and moments are "
-        "averaged for the local measure of utilization.",
+        "averaged for the local measure of utilization, also that of sizing.measure: strip.",
     )  # fmt: skip
     partial_factor: float = setting(
         1.0, minimum=1, maximum=5, stages=_STAGES,

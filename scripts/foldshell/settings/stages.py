@@ -31,7 +31,7 @@ STAGES: dict[str, tuple[type, ...]] = {
     "exports": (Exports,),
     "archive": (Archive,),
     "checks": (Codes, Checks),
-    "study": (Pattern, Fold, *ANALYSED, Checks, Crosscheck),
+    "study": (Pattern, Fold, *ANALYSED, Crosscheck),
 }
 """Groups that each stage takes; a setting with `stages` of its own goes to those alone."""
 

@@ -5,7 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
-from foldshell.checks.measures import NEED_STRIPS, STRIP_WIDTH
+from foldshell.checks.measures import NEED_STRIPS
 from foldshell.checks.strips import find_strips
 from foldshell.files.errors import InputError
 from foldshell.files.whole import hash_data, hash_file
@@ -54,7 +54,9 @@ def make_case(arrays: Mapping[str, np.ndarray], settings: StageSettings) -> Anal
     asked = sizing.rule in NEED_CONSTRAINTS
     factor_min = least_factor_due(sizing) if asked else None
     notes = arrays.get("support_warnings")
-    strips = find_strips(model.operators, STRIP_WIDTH) if sizing.measure in NEED_STRIPS else None
+    strips = None
+    if sizing.measure in NEED_STRIPS:
+        strips = find_strips(model.operators, settings.checks.strip_width)
     groups = settings.combinations, settings.analysis, sizing
     words = () if notes is None else tuple(map(str, notes.tolist()))
     placed = place_on_model(model, cases)

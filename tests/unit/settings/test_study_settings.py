@@ -345,7 +345,7 @@ def test_hash_follows_all_that_decides_a_design_and_nothing_else(tmp_path):
         ("sizing.iterations_max", 20, {"analyse", "size", "study"}),
         ("sizing.classes", 5, {"size", "study"}),
         ("loads.live_kn_m2", 2, {"analyse", "size", "crosscheck", "study"}),
-        ("checks.strip_width_m", 0.5, {"checks", "study"}),
+        ("checks.strip_width_m", 0.5, {"analyse", "size", "checks", "study"}),
         ("material.kind", "steel", {"size", "study"}),
         ("crosscheck.tolerance.work", 0.1, {"crosscheck", "study"}),
         ("figures.width_px", 800, {"figures"}),

@@ -20,7 +20,7 @@ def analysed(tmp_path_factory):
     material so weak that some panels are used beyond the limit."""
     mesh = write_small_mesh(tmp_path_factory.mktemp("mesh") / "mesh.npz")
     case = open_case(mesh, given("analyse", least_thickness=LEAST, largest_thickness=LARGEST))
-    case = replace(case, material=replace(case.material, strength=2000.0))
+    case = replace(case, material=case.material.changed(strength=2000.0))
     thickness = np.linspace(LEAST, LARGEST, PANELS)
     thickness[3] = LEAST
     task = IterationTask(case.sizing.iterations_max, SPAN, thickness)
