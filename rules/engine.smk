@@ -8,6 +8,7 @@ from subprocess import CalledProcessError
 from snakemake import benchmark as benchmarks, script as scripts
 from snakemake.exceptions import IncompleteCheckpointException, WorkflowError
 
+from foldshell.engine.few_jobs import FEW, look_at_few
 from foldshell.engine.fork_client import AVAILABLE, ForkServer
 from foldshell.engine.job_end import describe_end
 from foldshell.engine.name_check import NameCheck
@@ -99,10 +100,21 @@ if PRIVATE.has(RECORD(), "BenchmarkRecord", RECORD_FIELDS) and KNOWN:
     SCRIPT.execute_script = execute_script
 
 
+def rank_of(job):
+    """Return what a job comes before others by: its priority, then the panels of its design."""
+    design = BY_NAME.get(getattr(job, "wildcards_dict", {}).get("design"))
+    return job.priority, design.zigzag * design.strip if design else 0
+
+
 onstart:
     begin_run()
+    dag, scheduler = workflow.dag, workflow.scheduler
+    greedy = setting_of("scheduling_settings", "scheduler") == "greedy"
+    if PRIVATE.has(scheduler, "scheduler", "open_jobs remaining_jobs") and greedy:
+        slots = [setting_of("resource_settings", name) or 0 for name in ("cores", "nodes")]
+        few = FEW + 2 * max(slots)
+        look_at_few(scheduler, "open_jobs", "remaining_jobs", rank_of, few)
     if runs_here():
-        dag, scheduler = workflow.dag, workflow.scheduler
         # The limit of 100 starts a second takes half a core after some hundred jobs.
         if PRIVATE.has(scheduler, "scheduler", "job_rate_limiter global_resources resources"):
             scheduler.job_rate_limiter = None
