@@ -15,7 +15,6 @@ from foldshell.engine.plain_path import find_plain_path
 from foldshell.engine.versions import check_snakemake
 from foldshell.files.errors import user_errors
 from foldshell.settings.load_study import load_study
-from foldshell.records.edits import keep_all_edited
 from foldshell.settings.places import STUDIES, check_results, choose_results
 
 prepare_environment(os.environ)
@@ -36,9 +35,6 @@ with user_errors():
     check_results(RESULTS, SETTINGS.designs)
 
 STUDY = f"{RESULTS}/{STUDIES}/{SETTINGS.study}"
-
-for path in keep_all_edited(RESULTS):
-    print(f"kept a copy of the edited workbook {path}", file=sys.stderr)
 
 
 wildcard_constraints:

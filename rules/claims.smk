@@ -16,7 +16,7 @@ rule sensitivity:
     conda:
         "../envs/foldshell.yaml"
     resources:
-        mem_mb=memory_of("analyse"),
+        **needs_of("analyse", SETTINGS.sizing.iterations_max),
     params:
         **of_design("span_m"),
         layout=lambda wildcards: layout_of(wildcards.design),
@@ -41,7 +41,7 @@ rule flat_equal:
     conda:
         "../envs/foldshell.yaml"
     resources:
-        mem_mb=memory_of("analyse"),
+        **needs_of("analyse"),
     params:
         **of_design("span_m"),
         flat=lambda wildcards: flat_of(BY_NAME[wildcards.design]),

@@ -110,4 +110,5 @@ def names_of_tag(tag):
 
 include: "loop.smk"
 include: "engine.smk"
+include: "needs.smk"
 include: "inputs.smk"

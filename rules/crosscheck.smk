@@ -17,7 +17,7 @@ rule neutral_model:
     conda:
         "../envs/foldshell.yaml"
     resources:
-        mem_mb=memory_of("mesh"),
+        **needs_of("mesh"),
     params:
         settings=of_stage("crosscheck"),
     message:
@@ -43,7 +43,7 @@ rule mesh_convergence:
     conda:
         "../envs/foldshell.yaml"
     resources:
-        mem_mb=memory_of("mesh_convergence"),
+        **needs_of("mesh_convergence"),
     params:
         support=holding,
         edge_beam=edge_beam,
@@ -71,7 +71,7 @@ rule compare:
     conda:
         "../envs/foldshell.yaml"
     resources:
-        mem_mb=memory_of("compare"),
+        **needs_of("compare"),
     params:
         subdivisions=SETTINGS.crosscheck.subdivisions,
         solver=SETTINGS.crosscheck.solver,

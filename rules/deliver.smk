@@ -21,7 +21,7 @@ rule draw:
     conda:
         "../envs/foldshell.yaml"
     resources:
-        mem_mb=memory_of("draw"),
+        **needs_of("draw"),
     params:
         **of_design("span_m", "pattern"),
         settings=lambda wildcards: of_stage("size")(wildcards) | of_stage("figures")(wildcards),
@@ -62,7 +62,7 @@ rule page:
     conda:
         "../envs/foldshell.yaml"
     resources:
-        mem_mb=memory_of("page"),
+        **needs_of("page"),
     params:
         design=lambda wildcards: BY_NAME[wildcards.design].to_row(),
         settings=of_stage("size"),

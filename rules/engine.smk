@@ -44,8 +44,16 @@ DEPLOYMENT = {way.name.lower() for way in setting_of("deployment_settings", "dep
 
 
 def runs_here():
-    """Tell whether jobs run on this machine, and not by a cluster's executor."""
-    return not PRIVATE.has(workflow, "workflow", "local_exec") or workflow.local_exec
+    """Tell whether jobs run on this machine. While rules are read, what runs them is not known yet:
+    only clusters have a number of jobs beside that of cores."""
+    known = PRIVATE.has(workflow, "workflow", "executor_plugin local_exec")
+    begun = known and workflow.executor_plugin
+    return workflow.local_exec if begun else not setting_of("resource_settings", "nodes")
+
+
+def is_job():
+    """Tell whether this process runs jobs that another Snakemake has started."""
+    return PRIVATE.has(workflow, "workflow", "is_main_process") and not workflow.is_main_process
 
 
 def find_analysis(**wildcards):

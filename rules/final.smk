@@ -17,7 +17,7 @@ rule group:
     conda:
         "../envs/foldshell.yaml"
     resources:
-        mem_mb=memory_of("analyse"),
+        **needs_of("analyse"),
     params:
         **LOOP_PARAMS["group"],
     message:

@@ -16,7 +16,7 @@ rule fold:
     conda:
         "../envs/foldshell.yaml"
     resources:
-        mem_mb=memory_of("fold"),
+        **needs_of("fold"),
     params:
         **of_design("surface", "span_m", "height_m", "fold_mode", "file_unit"),
         settings=of_stage("fold"),

@@ -1,31 +1,13 @@
 # Files: logs and times of jobs, what the rules over all designs read and write.
 
-from foldshell.engine.memory import estimate_memory, find_free_memory, guess_nodes, share_memory
 from foldshell.claims.sensitivity import VARIANTS
 from foldshell.exchange.formats import name_files
 from foldshell.records.catalogue import FILES
-
-# For jobs that run and for processes that wait; elsewhere a cluster knows what there is.
-MEMORY = share_memory(find_free_memory() if runs_here() else None)
 
 
 def results_folder(_wildcards):
     """Return the folder of all results, as a parameter."""
     return RESULTS
-
-
-def memory_of(kind):
-    """Return a function of the wildcards: the memory (MB) that a job of a design takes, at most all
-    there is for one: it then runs alone."""
-
-    def find(wildcards):
-        design = BY_NAME[wildcards.design]
-        counts, files = (design.zigzag, design.strip), design.files
-        nodes = guess_nodes(counts, files, choose_subdivisions(SETTINGS, design))
-        need = estimate_memory(kind, nodes)
-        return min(need, MEMORY[0] or need)
-
-    return find
 
 
 def timing(rule, suffix=""):

@@ -13,7 +13,7 @@ rule mesh:
     conda:
         "../envs/foldshell.yaml"
     resources:
-        mem_mb=memory_of("mesh"),
+        **needs_of("mesh"),
     params:
         support=holding,
         edge_beam=edge_beam,

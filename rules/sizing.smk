@@ -41,7 +41,7 @@ checkpoint analyse:
     conda:
         "../envs/foldshell.yaml"
     resources:
-        mem_mb=memory_of("analyse"),
+        **needs_of("analyse"),
     params:
         **LOOP_PARAMS["analyse"],
     message:

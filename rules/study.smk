@@ -1,6 +1,11 @@
 # What is said over all designs.
 
 
+# On a cluster: where Snakemake runs.
+localrules:
+    schemas,
+
+
 rule schemas:
     input:
         library=code_inputs("schemas"),

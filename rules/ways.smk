@@ -1,5 +1,7 @@
 # Which way the thickness loop runs: a job for each step, or one for each design.
 
+from foldshell.records.edits import keep_all_edited
+
 STEPS_MAX = 60
 """Designs up to which the rules of the loop run one by one: Snakemake's own time grows with the
 square of the designs then."""
@@ -17,6 +19,10 @@ def choose_loop():
             print(f"loop: whole, one job for each of {count} designs", file=sys.stderr)
     return os.environ[CHOSEN]
 
+
+if not is_job():
+    for path in keep_all_edited(RESULTS):
+        print(f"kept a copy of the edited workbook {path}", file=sys.stderr)
 
 if choose_loop() == "whole":
 

@@ -38,7 +38,7 @@ rule size:
     conda:
         "../envs/foldshell.yaml"
     resources:
-        mem_mb=memory_of("analyse"),
+        **needs_of("analyse", SETTINGS.sizing.iterations_max),
     params:
         scripts=SCRIPTS,
         jobs=given(LOOP_PARAMS),

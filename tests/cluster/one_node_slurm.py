@@ -1,7 +1,7 @@
 """A Slurm of one node, this machine, without accounting: `one_node_slurm.py start|stop FOLDER`.
 
-From the Debian packages slurmctld, slurmd, slurm-client and munge. All its files are in the folder,
-and what uses it has SLURM_CONF=FOLDER/slurm.conf in its environment; /etc is not touched.
+From the Debian packages slurmctld, slurmd, slurm-client and munge. All its files are in the folder;
+only /etc/slurm/slurm.conf is a link to it while it runs: jobs that Snakemake starts lose SLURM_CONF.
 """
 
 import contextlib
@@ -16,6 +16,7 @@ import time
 from collections.abc import Iterator
 from pathlib import Path
 
+LINK = Path("/etc/slurm/slurm.conf")
 PROGRAMS = ("munged", "slurmctld", "slurmd", "sbatch", "squeue", "scancel")
 CONFIG = """\
 ClusterName=onenode
@@ -54,11 +55,13 @@ def why_not() -> str:
     missing = [program for program in PROGRAMS if not shutil.which(program, path=path)]
     if missing:
         return f"no {', '.join(missing)}: apt-get install slurmctld slurmd slurm-client munge"
-    return "" if os.geteuid() == 0 else "slurmd runs jobs as root only"
+    if os.geteuid():
+        return "slurmd runs jobs as root only"
+    return f"{LINK} is there: this machine has a Slurm already" if LINK.exists() else ""
 
 
-def start(folder: Path, cores: int = 2, memory_mb: int = 8000) -> dict[str, str]:
-    """Start the three daemons in a folder; return what goes into the environment.
+def start(folder: Path, cores: int = 2, memory_mb: int = 8000) -> None:
+    """Start the three daemons in a folder.
 
     Raises `RuntimeError` where the node is not idle within 30 s.
     """
@@ -74,8 +77,10 @@ def start(folder: Path, cores: int = 2, memory_mb: int = 8000) -> dict[str, str]
     config = folder / "slurm.conf"
     fields = {"host": host, "user": user, "cores": cores, "memory": memory_mb}
     config.write_text(CONFIG.format(folder=folder, port=port, node_port=node_port, **fields))
-    own = os.environ | {"SLURM_CONF": str(config)}
-    own["PATH"] += ":/usr/sbin:/sbin"
+    LINK.parent.mkdir(parents=True, exist_ok=True)
+    LINK.unlink(missing_ok=True)
+    LINK.symlink_to(config)
+    own = os.environ | {"PATH": os.environ["PATH"] + ":/usr/sbin:/sbin"}
     names = ("key-file=munge.key", "socket=munge.socket", "pid-file=munged.pid")
     names += ("log-file=munged.log", "seed-file=munged.seed")
     munge = [f"--{name.replace('=', f'={folder}/')}" for name in names]
@@ -85,7 +90,7 @@ def start(folder: Path, cores: int = 2, memory_mb: int = 8000) -> dict[str, str]
     for _ in range(60):
         state = subprocess.run(["sinfo", "-h", "-o", "%T"], env=own, capture_output=True, text=True)
         if state.stdout.strip() == "idle":
-            return {"SLURM_CONF": str(config)}
+            return
         time.sleep(0.5)
     stop(folder)
     raise RuntimeError(f"the node is {state.stdout.strip() or state.stderr.strip()}")
@@ -93,8 +98,9 @@ def start(folder: Path, cores: int = 2, memory_mb: int = 8000) -> dict[str, str]
 
 def stop(folder: Path) -> None:
     """End jobs and daemons of a folder."""
-    own = os.environ | {"SLURM_CONF": str(folder.resolve() / "slurm.conf")}
-    subprocess.run(["scancel", "--user", getpass.getuser()], env=own, capture_output=True)
+    if LINK.resolve() == (folder / "slurm.conf").resolve():
+        subprocess.run(["scancel", "--user", getpass.getuser()], capture_output=True)
+        LINK.unlink()
     for name in ("slurmd", "slurmctld", "munged"):
         with contextlib.suppress(OSError, ValueError):
             process = int((folder / f"{name}.pid").read_text())
@@ -105,11 +111,11 @@ def stop(folder: Path) -> None:
 
 
 @contextlib.contextmanager
-def one_node(folder: Path, cores: int = 2, memory_mb: int = 8000) -> Iterator[dict[str, str]]:
-    """Yield the environment of a Slurm that ends with the block."""
-    environment = start(folder, cores, memory_mb)
+def one_node(folder: Path, cores: int = 2, memory_mb: int = 8000) -> Iterator[None]:
+    """Run a Slurm that ends with the block."""
+    start(folder, cores, memory_mb)
     try:
-        yield environment
+        yield
     finally:
         stop(folder)
 
@@ -136,4 +142,4 @@ if __name__ == "__main__":
     elif reason := why_not():
         sys.exit(reason)
     else:
-        print(f"export SLURM_CONF={start(Path(sys.argv[2]))['SLURM_CONF']}")
+        start(Path(sys.argv[2]))

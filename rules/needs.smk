@@ -1,0 +1,44 @@
+# What jobs need: memory, and time for a cluster's queue, from panels and subdivisions. All take one
+# thread: with more, sums are taken in another order, and results would hang on the machine.
+
+from foldshell.engine.memory import estimate_memory, find_free_memory, guess_nodes, share_memory
+from foldshell.engine.minutes import estimate_minutes
+
+# For jobs that run and for processes that wait; elsewhere a cluster knows what there is.
+MEMORY = share_memory(find_free_memory() if runs_here() else None)
+SNAKEMAKE_MB = 0 if runs_here() else 400
+"""Of a cluster's job: the processes of Snakemake that start the script."""
+
+
+@functools.cache
+def nodes_of(name):
+    """Return the nodes of a design's mesh."""
+    design = BY_NAME[name]
+    counts, files = (design.zigzag, design.strip), design.files
+    return guess_nodes(counts, files, choose_subdivisions(SETTINGS, design))
+
+
+def memory_of(kind):
+    """Return a function of the wildcards: the memory (MB) that a job of a design takes, more with
+    each attempt, at most all there is for one: it then runs alone."""
+
+    def find(wildcards, attempt):
+        need = attempt * (SNAKEMAKE_MB + estimate_memory(kind, nodes_of(wildcards.design)))
+        return min(need, MEMORY[0] or need)
+
+    return find
+
+
+def minutes_of(kind, times=1):
+    """Return a function of the wildcards: the time (min) after which a job of a design is taken to
+    hang, more with each attempt; `times` as long where it has so many steps."""
+
+    def find(wildcards, attempt):
+        return attempt * estimate_minutes(kind, nodes_of(wildcards.design), times)
+
+    return find
+
+
+def needs_of(kind, times=1):
+    """Return the resources of a rule."""
+    return {"mem_mb": memory_of(kind), "runtime": minutes_of(kind, times)}
