@@ -45,7 +45,7 @@ test: $(STAMP)
 	PATH="$(RUN):$$PATH" python -m pytest
 
 quick: $(STAMP)
-	PATH="$(RUN):$$PATH" PYTHONHASHSEED=0 python -m pytest -n $(CORES) -m "not workflow and not slow and not verification and not bench"
+	PATH="$(RUN):$$PATH" PYTHONHASHSEED=0 python -m pytest -n $(CORES) -m "not workflow and not slow and not verification and not bench and not cluster"
 
 verification: $(STAMP)
 	PATH="$(RUN):$$PATH" python -m pytest -m "verification or slow"

@@ -6,6 +6,7 @@ import math
 from foldshell.settings.designs import select_designs
 from foldshell.engine.imports import write_content_list, write_library_list
 from foldshell.files.package_data import library_folder
+from foldshell.files.whole import read_json, write_json
 from foldshell.settings.stages import choose_subdivisions, hash_decisions, stage_parameters
 
 BY_NAME = {design.name: design for design in DESIGNS}
@@ -21,12 +22,23 @@ LOOP = f"{RESULTS}/{{design}}/sizing"
 STEP = f"{LOOP}/{{iteration}}"
 # Relative in the project's own folder, so that a moved project does not run anew.
 SCRIPTS = "scripts" if Path.cwd() == HOME else f"{HOME}/scripts"
+LIBRARY = ".snakemake/library"
+LISTS_FILE = f"{LIBRARY}/lists.json"
 PAGES = "scripts/foldshell/report" if Path.cwd() == HOME else f"{library_folder()}/foldshell/report"
 
 
+LISTS = {}  # of library files, by script
+
+
 def code_inputs(script):
-    """Return the list of the library files that a rule's script imports, as an input of it."""
-    return write_library_list(f"{SCRIPTS}/{script}.py", SCRIPTS, ".snakemake/library")
+    """Return the list of the library files that a rule's script imports, as an input of it. A job
+    elsewhere takes what its run has found: that takes half of the time to read the rules."""
+    if script not in LISTS and is_job() and Path(LISTS_FILE).is_file():
+        LISTS.update(read_json(LISTS_FILE))
+    if script not in LISTS:
+        path = f"{SCRIPTS}/{script}.py"
+        LISTS[script] = write_library_list(path, SCRIPTS, LIBRARY)
+    return LISTS[script]
 
 
 def assets():
@@ -34,7 +46,7 @@ def assets():
     are read, not imported."""
     files = [path for path in Path(PAGES).rglob("*") if path.is_file()]
     data = sorted(path for path in files if path.suffix not in (".py", ".pyc"))
-    return write_content_list(data, ".snakemake/library")
+    return write_content_list(data, LIBRARY)
 
 
 def of_design(*columns):
@@ -77,7 +89,7 @@ def files_content(wildcards):
     """Return a file whose name tells the content of the design's files, as an input beside them:
     the content decides whether a rule runs again, not the date."""
     names = list(BY_NAME[wildcards.design].files)
-    return [write_content_list(names, ".snakemake/library")] if names else []
+    return [write_content_list(names, LIBRARY)] if names else []
 
 
 def panels_of_file(wildcards):
@@ -109,6 +121,7 @@ def names_of_tag(tag):
 
 
 include: "loop.smk"
+include: "server.smk"
 include: "engine.smk"
 include: "needs.smk"
 include: "inputs.smk"

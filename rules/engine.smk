@@ -1,20 +1,17 @@
-# The only file that knows private names of Snakemake, for what its interfaces do not reach. A run goes
-# on without a name that is gone and says so in one line; a test fails.
+# The only file that knows private names of Snakemake. Without one a run goes on and says so.
 
 import inspect
 import logging
 from subprocess import CalledProcessError
 
 from snakemake import benchmark as benchmarks, script as scripts
-from snakemake.exceptions import IncompleteCheckpointException, WorkflowError
+from snakemake.exceptions import WorkflowError
 
-from foldshell.engine.few_jobs import FEW, look_at_few
-from foldshell.engine.fork_client import AVAILABLE, ForkServer
+from foldshell.engine.few_jobs import look_at_few
 from foldshell.engine.job_end import describe_end
 from foldshell.engine.name_check import NameCheck
-from foldshell.engine.preload import MODULES, POOLS
 
-SERVERS, PRIVATE = [], NameCheck()  # the fork server, once the first job may start
+PRIVATE = NameCheck()
 SCRIPT_FIELDS = "conda_env container_img env_modules shadow_dir rulename wildcards log bench_record"
 RECORD_FIELDS = "running_time cpu_time cpu_usage max_rss data_collected"
 KNOWN = PRIVATE.has(workflow, "workflow", "main_snakefile")
@@ -40,15 +37,11 @@ def is_target(*names):
     return bool(set(names) & set(map(str, setting_of("dag_settings", "targets"))))
 
 
-DEPLOYMENT = {way.name.lower() for way in setting_of("deployment_settings", "deployment_method")}
-
-
 def runs_here():
-    """Tell whether jobs run on this machine. While rules are read, what runs them is not known yet:
-    only clusters have a number of jobs beside that of cores."""
+    """Tell whether jobs run on this machine; at first only by what clusters have, numbers of jobs."""
     known = PRIVATE.has(workflow, "workflow", "executor_plugin local_exec")
-    begun = known and workflow.executor_plugin
-    return workflow.local_exec if begun else not setting_of("resource_settings", "nodes")
+    elsewhere = bool(setting_of("resource_settings", "nodes"))
+    return workflow.local_exec if known and workflow.executor_plugin else not elsewhere
 
 
 def is_job():
@@ -56,16 +49,8 @@ def is_job():
     return PRIVATE.has(workflow, "workflow", "is_main_process") and not workflow.is_main_process
 
 
-def find_analysis(**wildcards):
-    """Return the analysis.json of an iteration, and whether Snakemake knows that it is made."""
-    try:
-        return checkpoints.analyse.get(**wildcards).output.json, True
-    except IncompleteCheckpointException as missing:
-        return str(missing.targetfile), False
-
-
 def run_anew(job, fname, edit):
-    """Start Python anew for a script; what it prints goes to its log and to the terminal."""
+    """Start Python anew for a script, which prints to its log and to the terminal."""
     execute, log = job._execute_cmd, str(job.log[0]) if job.log and not edit else os.devnull
     job._execute_cmd = lambda command, **fields: execute(
         f"( {command} ) 2>&1 | tee {{log:q}} >&2", log=log, **fields
@@ -75,15 +60,17 @@ def run_anew(job, fname, edit):
 
 def run_in_fork(job, fname):
     """Run a script in a fork, if it can be, and return how that ended: None if it cannot."""
-    if job.conda_env or job.container_img or job.env_modules or job.shadow_dir or not SERVERS:
+    server = find_server()
+    if job.conda_env or job.container_img or job.env_modules or job.shadow_dir or not server:
         return None
     log, pool = str(job.log[0]) if job.log else "", POOLS.get(job.rulename, "")
-    end = SERVERS[0].run(fname, pool, job.wildcards.get("design", ""), log)
-    if end is not None:
-        show_job(log, bool(end.code))
-    if end is not None and job.bench_record:
+    end = server.run(fname, pool, job.wildcards.get("design", ""), log)
+    if end is None:
+        return None
+    show_job(log, bool(end.code))
+    if job.bench_record:
         vars(job.bench_record).update(zip(RECORD_FIELDS.split(), end.describe()))
-    return end and end.code
+    return end.code
 
 
 def execute_script(self, fname, edit=False):
@@ -108,33 +95,26 @@ if PRIVATE.has(RECORD(), "BenchmarkRecord", RECORD_FIELDS) and KNOWN:
     SCRIPT.execute_script = execute_script
 
 
-def rank_of(job):
-    """Return what a job comes before others by: its priority, then the panels of its design."""
-    design = BY_NAME.get(getattr(job, "wildcards_dict", {}).get("design"))
-    return job.priority, design.zigzag * design.strip if design else 0
+def mend_scheduler(dag, scheduler):
+    """Leave out what takes Snakemake long and leads to nothing."""
+    known = PRIVATE.has(scheduler, "scheduler", "open_jobs remaining_jobs")
+    if known and setting_of("scheduling_settings", "scheduler") == "greedy":
+        look_at_few(scheduler, "open_jobs", "remaining_jobs", rank_of, count_few())
+    # The limit of 100 starts a second takes half a core after some hundred jobs.
+    if ok := PRIVATE.has(scheduler, "scheduler", "job_rate_limiter global_resources finished_jobs"):
+        scheduler.job_rate_limiter = None
+        for known in (scheduler.global_resources, scheduler.resources) * bool(MEMORY[0]):
+            known.setdefault("mem_mb", MEMORY[0])
+    # Jobs that are up to date at the start stay so: to ask them anew takes longer than a job.
+    if PRIVATE.has(dag, "dag", "_finished _needrun _len") and ok:
+        current = {job for job in dag.jobs if not dag.needrun(job)}
+        dag._finished.update(current)
+        scheduler.finished_jobs += len(current)
+        dag._len = len(dag._finished | dag._needrun)
 
 
 onstart:
     begin_run()
-    dag, scheduler = workflow.dag, workflow.scheduler
-    greedy = setting_of("scheduling_settings", "scheduler") == "greedy"
-    if PRIVATE.has(scheduler, "scheduler", "open_jobs remaining_jobs") and greedy:
-        slots = [setting_of("resource_settings", name) or 0 for name in ("cores", "nodes")]
-        few = FEW + 2 * max(slots)
-        look_at_few(scheduler, "open_jobs", "remaining_jobs", rank_of, few)
-    if runs_here():
-        # The limit of 100 starts a second takes half a core after some hundred jobs.
-        if PRIVATE.has(scheduler, "scheduler", "job_rate_limiter global_resources resources"):
-            scheduler.job_rate_limiter = None
-            for known in (scheduler.global_resources, scheduler.resources) * bool(MEMORY[0]):
-                known.setdefault("mem_mb", MEMORY[0])
-        # Jobs that are up to date at the start stay so: to ask them anew takes longer than a job.
-        done = PRIVATE.has(scheduler, "scheduler", "finished_jobs")
-        if PRIVATE.has(dag, "dag", "_finished _needrun _len") and done:
-            current = {job for job in dag.jobs if not dag.needrun(job)}
-            dag._finished.update(current)
-            scheduler.finished_jobs += len(current)
-            dag._len = len(dag._finished | dag._needrun)
-        if SETTINGS.jobs.fork and AVAILABLE:
-            SERVERS.append(ForkServer(SCRIPTS, MODULES, os.environ | ONE_THREAD, MEMORY[1]))
+    mend_scheduler(workflow.dag, workflow.scheduler)
+    start_server(MODULES)
     sys.stderr.write(PRIVATE.describe())

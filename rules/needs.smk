@@ -1,6 +1,7 @@
 # What jobs need: memory, and time for a cluster's queue, from panels and subdivisions. All take one
 # thread: with more, sums are taken in another order, and results would hang on the machine.
 
+from foldshell.engine.few_jobs import FEW
 from foldshell.engine.memory import estimate_memory, find_free_memory, guess_nodes, share_memory
 from foldshell.engine.minutes import estimate_minutes
 
@@ -42,3 +43,14 @@ def minutes_of(kind, times=1):
 def needs_of(kind, times=1):
     """Return the resources of a rule."""
     return {"mem_mb": memory_of(kind), "runtime": minutes_of(kind, times)}
+
+
+def rank_of(job):
+    """Return what a job comes before others by: its priority, then the panels of its design."""
+    design = BY_NAME.get(getattr(job, "wildcards_dict", {}).get("design"))
+    return job.priority, design.zigzag * design.strip if design else 0
+
+
+def count_few():
+    """Return how many jobs that could run are looked at: more than there is room for."""
+    return FEW + 2 * max(setting_of("resource_settings", name) or 0 for name in ("cores", "nodes"))

@@ -1,7 +1,10 @@
 # What a run does when it begins and when its jobs have ended.
 
+import contextlib
+
 from snakemake.logging import logger
 
+from foldshell.engine.cluster_end import describe_cluster_ends
 from foldshell.engine.copies import copy_study
 from foldshell.engine.environment import check_deployment
 from foldshell.engine.interrupt import stop_once
@@ -10,8 +13,13 @@ from foldshell.engine.live_view import LiveView, describe_results
 from foldshell.files.package_data import is_installed
 from foldshell.settings.places import TOP, claim_results
 
+DEPLOYMENT = {way.name.lower() for way in setting_of("deployment_settings", "deployment_method")}
+
 with user_errors():
     check_deployment(DEPLOYMENT, is_installed())
+
+if not is_job():
+    write_json(LISTS_FILE, LISTS)
 
 VIEWS = []  # on a terminal: the lines that stay
 
@@ -63,5 +71,14 @@ onsuccess:
     finish_run()
 
 
+def read_log(path):
+    """Return what stands in a log, nothing without one."""
+    with contextlib.suppress(OSError):
+        return Path(path).read_text(encoding="utf-8", errors="replace")
+    return ""
+
+
 onerror:
     finish_run()
+    for sentence in describe_cluster_ends(read_log(log), read_log):
+        print(sentence, file=sys.stderr)

@@ -1,5 +1,7 @@
 # Which way the thickness loop runs: a job for each step, or one for each design.
 
+from snakemake.exceptions import IncompleteCheckpointException
+
 from foldshell.records.edits import keep_all_edited
 
 STEPS_MAX = 60
@@ -18,6 +20,14 @@ def choose_loop():
         if os.environ[CHOSEN] == "whole":
             print(f"loop: whole, one job for each of {count} designs", file=sys.stderr)
     return os.environ[CHOSEN]
+
+
+def find_analysis(**wildcards):
+    """Return the analysis.json of an iteration, and whether Snakemake knows that it is made."""
+    try:
+        return checkpoints.analyse.get(**wildcards).output.json, True
+    except IncompleteCheckpointException as missing:
+        return str(missing.targetfile), False
 
 
 if not is_job():

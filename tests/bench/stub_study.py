@@ -58,9 +58,7 @@ def make_stub_code(folder: Path, iterations: int) -> Path:
 
 def make_stub_study(folder: Path, count: int, settings: dict | None = None) -> Path:
     """Write config/ of a study of `count` small designs; return the folder."""
-    rows = "".join(
-        f"s{number:04d}\tparaboloid\t5\t2\t9\t8\tall\ttiny\n" for number in range(count)
-    )
+    rows = "".join(f"s{number:04d}\tparaboloid\t5\t2\t9\t8\tall\ttiny\n" for number in range(count))
     return make_study(folder, rows, settings)
 
 

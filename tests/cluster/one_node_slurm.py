@@ -1,7 +1,7 @@
 """A Slurm of one node, this machine, without accounting: `one_node_slurm.py start|stop FOLDER`.
 
 From the Debian packages slurmctld, slurmd, slurm-client and munge. All its files are in the folder;
-only /etc/slurm/slurm.conf is a link to it while it runs: jobs that Snakemake starts lose SLURM_CONF.
+/etc/slurm/slurm.conf is a link to it while it runs: jobs that Snakemake starts lose SLURM_CONF.
 """
 
 import contextlib

@@ -2,6 +2,7 @@
 
 import csv
 import re
+import shutil
 import subprocess
 import sys
 from pathlib import Path
@@ -24,7 +25,14 @@ from foldshell.engine.environment import ONE_THREAD
 
 MEMORY = (100, 50)
 SETTINGS = SimpleNamespace(jobs=SimpleNamespace(fork=True))
+include: "server.smk"
 include: "engine.smk"
+
+def count_few():
+    return 64
+
+def rank_of(job):
+    return job.priority
 
 def begin_run():
     print("handler:", terminal_handler())
@@ -35,8 +43,7 @@ def show_job(log, failed):
 
 def last_made(wildcards):
     print("known:", is_target("end"), is_target("other"), MAIN_SNAKEFILE)
-    path, made = find_analysis(design="a", iteration="00")
-    return path
+    return checkpoints.analyse.get(design="a", iteration="00").output.json
 
 rule end:
     input: last_made
@@ -67,6 +74,7 @@ Path(snakemake.output[0]).write_text(parent)
 def run_tiny(folder, engine, *targets, cores="1"):
     """Run a checkpoint and a script by a Snakefile that includes this engine.smk."""
     (folder / "engine.smk").write_text(engine)
+    shutil.copy(REPOSITORY / "rules/server.smk", folder)
     (folder / "job.py").write_text(JOB)
     (folder / "Snakefile").write_text(SNAKEFILE.format(scripts=str(REPOSITORY / "scripts")))
     command = [sys.executable, "-m", "snakemake", "--cores", cores, *(targets or ["end"])]

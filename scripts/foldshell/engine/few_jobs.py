@@ -10,11 +10,11 @@ after each job: with all the first jobs of a thousand designs that grows with th
 
 
 def look_at_few(
-    scheduler: Any, ready: str, remaining: str, rank: Callable[[Any], Any], few: int
+    owner: Any, ready: str, remaining: str, rank: Callable[[Any], Any], few: int
 ) -> None:
     """Let a scheduler's property `ready` return its `few` jobs of the highest rank, and `remaining`
     none: the greedy choice does not use it."""
-    kind = type(scheduler)
+    kind = type(owner)
     found = getattr(kind, ready).fget
 
     def pick(self: Any) -> list[Any]:
@@ -23,4 +23,4 @@ def look_at_few(
         return jobs if len(jobs) <= few else heapq.nlargest(few, jobs, key=rank)
 
     properties = {ready: property(pick), remaining: property(lambda self: [])}
-    scheduler.__class__ = type(kind.__name__, (kind,), properties)
+    owner.__class__ = type(kind.__name__, (kind,), properties)
