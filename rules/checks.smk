@@ -20,7 +20,7 @@ rule check:
     conda:
         "../envs/foldshell.yaml"
     resources:
-        mem_mb=memory_of("analyse"),
+        **needs_of("analyse"),
     params:
         **of_design("span_m"),
         settings=lambda wildcards: of_stage("size")(wildcards) | of_stage("checks")(wildcards),

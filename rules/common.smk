@@ -4,9 +4,8 @@ import functools
 import math
 
 from foldshell.settings.designs import select_designs
-from foldshell.engine.imports import write_content_list, write_library_list
+from foldshell.engine.imports import write_content_list
 from foldshell.files.package_data import library_folder
-from foldshell.files.whole import read_json, write_json
 from foldshell.settings.stages import choose_subdivisions, hash_decisions, stage_parameters
 
 BY_NAME = {design.name: design for design in DESIGNS}
@@ -22,31 +21,7 @@ LOOP = f"{RESULTS}/{{design}}/sizing"
 STEP = f"{LOOP}/{{iteration}}"
 # Relative in the project's own folder, so that a moved project does not run anew.
 SCRIPTS = "scripts" if Path.cwd() == HOME else f"{HOME}/scripts"
-LIBRARY = ".snakemake/library"
-LISTS_FILE = f"{LIBRARY}/lists.json"
 PAGES = "scripts/foldshell/report" if Path.cwd() == HOME else f"{library_folder()}/foldshell/report"
-
-
-LISTS = {}  # of library files, by script
-
-
-def code_inputs(script):
-    """Return the list of the library files that a rule's script imports, as an input of it. A job
-    elsewhere takes what its run has found: that takes half of the time to read the rules."""
-    if script not in LISTS and is_job() and Path(LISTS_FILE).is_file():
-        LISTS.update(read_json(LISTS_FILE))
-    if script not in LISTS:
-        path = f"{SCRIPTS}/{script}.py"
-        LISTS[script] = write_library_list(path, SCRIPTS, LIBRARY)
-    return LISTS[script]
-
-
-def assets():
-    """Return the list of templates, styles and scripts of the pages, as an input of a rule: they
-    are read, not imported."""
-    files = [path for path in Path(PAGES).rglob("*") if path.is_file()]
-    data = sorted(path for path in files if path.suffix not in (".py", ".pyc"))
-    return write_content_list(data, LIBRARY)
 
 
 def of_design(*columns):
@@ -120,6 +95,7 @@ def names_of_tag(tag):
         return [design.name for design in select_designs(DESIGNS, tag, SETTINGS.designs)]
 
 
+include: "library.smk"
 include: "loop.smk"
 include: "server.smk"
 include: "engine.smk"

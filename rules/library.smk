@@ -1,0 +1,27 @@
+# Inputs: what of the library, and of the files beside it, a rule's script is made of.
+
+from foldshell.engine.imports import write_library_list
+from foldshell.files.whole import read_json, write_json
+
+LIBRARY = ".snakemake/library"
+LISTS_FILE = f"{LIBRARY}/lists.json"
+LISTS = {}  # of library files, by script
+
+
+def code_inputs(script):
+    """Return the list of the library files that a rule's script imports, as an input of it. A job
+    elsewhere takes what its run has found: that takes half of the time to read the rules."""
+    if script not in LISTS and is_job() and Path(LISTS_FILE).is_file():
+        LISTS.update(read_json(LISTS_FILE))
+    if script not in LISTS:
+        path = f"{SCRIPTS}/{script}.py"
+        LISTS[script] = write_library_list(path, SCRIPTS, LIBRARY)
+    return LISTS[script]
+
+
+def assets():
+    """Return the list of templates, styles and scripts of the pages, as an input of a rule: they
+    are read, not imported."""
+    files = [path for path in Path(PAGES).rglob("*") if path.is_file()]
+    data = sorted(path for path in files if path.suffix not in (".py", ".pyc"))
+    return write_content_list(data, LIBRARY)
