@@ -39,7 +39,7 @@ def main(
     before = read_iteration(*previous) if previous else (None, None)
     edited = find_edited_panels(workbook_path, thickness)
     task = IterationTask(iteration, span_m, thickness, *before, edited)
-    record, arrays = open_case(mesh_path, given).run(task)
+    record, arrays = open_case(mesh_path, given).run_in_loop(task)
     decided = getattr(before[0], "settings_hash", settings_hash)
     record = replace(record, **describe_reading(workbook_path, thickness, decided))
     write_iteration(json_path, arrays_path, record, arrays)

@@ -10,6 +10,7 @@ from shell_problems import at, edge_traction, edges_where, grid, nodes_where
 from foldshell.shell.analysis import build_model
 from foldshell.shell.assembly import assemble_stiffness, rotation_dofs, translation_dofs
 from foldshell.shell.buckling import find_buckling_factors
+from foldshell.shell.effort import Effort
 from foldshell.shell.geometric import apply_geometric
 from foldshell.shell.linear_solver import factorise
 from foldshell.shell.mesh import build_mesh
@@ -39,7 +40,12 @@ def buckling_factor(mesh, fixed, force, thickness, modulus, poissons_ratio) -> f
 
     factor = factorise(model.pattern, values)
     found = find_buckling_factors(
-        factor.solve, apply, np.ones((1, 1)), len(dofs), tolerance=1e-4, iterations_max=200
+        factor.solve,
+        apply,
+        np.ones((1, 1)),
+        len(dofs),
+        effort=Effort(near_tolerance=1e-4),
+        iterations_max=200,
     )
     return float(found.factors[0])
 

@@ -9,7 +9,7 @@ from foldshell.settings.material import Material
 from foldshell.shell.analysis import ShellModel
 from foldshell.shell.results import panel_area
 from foldshell.shell.stiffness import ShellOperators
-from foldshell.shell.stress import evaluate, sample_points, stress_resultants, surface_stresses
+from foldshell.shell.stress import outer_stresses, sample_points, stress_resultants
 
 
 @dataclass(frozen=True)
@@ -73,11 +73,10 @@ def utilization_of_combinations(
     criterion = CRITERIA[material.criterion]
     combination = np.empty((displacement.shape[1], len(thickness), *points.shape[:2]))
     for column in range(displacement.shape[1]):
-        own = slice(column, column + 1)
-        force = evaluate(operators, resultants.force[..., own], flat)
-        moment = evaluate(operators, resultants.moment[..., own], flat)
-        value = criterion(surface_stresses(force, moment, thickness), material).max(axis=0)
-        combination[column] = value[..., 0].reshape(combination.shape[1:])
+        own = resultants.column(column)
+        stress = outer_stresses(operators, own, thickness, flat)[:, :, 0]
+        value = criterion(np.moveaxis(stress, 1, -1), material).max(axis=0)
+        combination[column] = value.reshape(combination.shape[1:])
     return combination
 
 
@@ -103,6 +102,10 @@ def area_percentile(model: ShellModel, point: np.ndarray, percent: float = 99.0)
     value = point.ravel()
     area = model.operators.geometry.area[: len(point)]
     weight = np.repeat(area, value.size // len(point))
-    order = np.argsort(value)
+    above = (1 - percent / 100) * weight.sum()
+    # only the largest values are put in order: as many as hold that share of the area for certain
+    count = min(value.size, int(above / weight.min()) + 2)
+    largest = np.argpartition(value, value.size - count)[value.size - count :]
+    order = largest[np.argsort(-value[largest], kind="stable")]
     share = np.cumsum(weight[order])
-    return float(value[order][np.searchsorted(share, percent / 100 * share[-1])])
+    return float(value[order][min(np.searchsorted(share, above, side="right"), count - 1)])

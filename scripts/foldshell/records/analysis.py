@@ -98,7 +98,8 @@ class ShellState:
     volume_m3: float = entry("volume of material, edge beam included", "m3")
     area_m2: float = entry("area of the sized panels", "m2", "area of the sheet")
     buckling_factor: dict[str, float | None] = entry(
-        "factor of each combination at which the shell buckles, elastic and perfect; null for none",
+        "factor of each combination at which the shell buckles, elastic and perfect; null for "
+        "none; where the loop goes on, those far above the least one are rough",
         "-", "buckling factors",
     )  # fmt: skip
     second_order_iterations: int = entry("iterations of second order (Th.II)", COUNT)
@@ -210,6 +211,10 @@ class AnalysisRecord(ShellState):
     edited_panels: tuple[int, ...] | None = entry(
         "panels whose thickness that person had changed", left_out=True
     )
+    buckling_factor_bound: float | None = entry(
+        "what no buckling factor is below: the least one that a search with random vectors found, "
+        "less the cube of the thinning since; null for none", "-", left_out=True,
+    )  # fmt: skip
     counted_from: int = entry(
         "iteration from which iterations_max counts: 0, or that of the last edit", COUNT, default=0
     )

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
@@ -17,14 +18,14 @@ from foldshell.shell.assembly import (
 )
 from foldshell.shell.boundary import find_acting
 from foldshell.shell.buckling import BucklingResult
+from foldshell.shell.effort import USUAL, Effort
 from foldshell.shell.linear_solver import NotPositiveDefiniteError
 from foldshell.shell.mesh import ShellMesh
-from foldshell.shell.near_null import find_near_null_vector
 from foldshell.shell.nodal_loads import nodal_forces
 from foldshell.shell.placed_loads import PlacedLoads, place_loads
 from foldshell.shell.second_order import SecondOrderResult
-from foldshell.shell.solution import Solution, State
-from foldshell.shell.stiffness import ShellOperators, build_operators
+from foldshell.shell.solution import Solution, State, describe_mechanism, initial_shape
+from foldshell.shell.stiffness import ShellOperators, build_operators, restrict_operators
 
 
 @dataclass(frozen=True)
@@ -52,6 +53,17 @@ class ShellModel:
     def self_weight_only(self) -> np.ndarray:
         """Whether each element carries nothing but its own weight, (E,) bool."""
         return self.mesh.panel >= self.sized_panels
+
+    @cached_property
+    def beside_supports(self) -> tuple[np.ndarray, ShellOperators]:
+        """The elements (k,) that touch a supported node, and the operators of these alone.
+
+        As numbers.
+        """
+        held = np.zeros(len(self.mesh.nodes), dtype=bool)
+        held[self.supported_nodes] = True
+        chosen = np.flatnonzero(held[self.mesh.elements].any(axis=1))
+        return chosen, restrict_operators(self.operators, chosen)
 
     def to_elements(self, thickness: np.ndarray) -> np.ndarray:
         """Return the thickness of each element (E,) from that of the sized panels (P,), m."""
@@ -88,6 +100,11 @@ class AnalysisResult:
     mechanism_node: int | None = None
     imperfection: np.ndarray | None = None
     imposed: np.ndarray | None = None
+
+    @property
+    def least_factor(self) -> float | None:
+        """Least buckling factor of all combinations, inf where nothing is compressed."""
+        return None if self.buckling is None else float(self.buckling.factors.min())
 
 
 def build_model(
@@ -139,6 +156,7 @@ def analyse_shell(
     combinations: Factors,
     options: Analysis | None = None,
     start_modes: np.ndarray | None = None,
+    effort: Effort = USUAL,
 ) -> AnalysisResult:
     """Factorise K once; first order, buckling factors and second order of all combinations.
 
@@ -148,28 +166,91 @@ def analyse_shell(
     cases : load cases, which the combinations know by name, or these as `place_on_model` left them
     options : by default the settings at their defaults
     start_modes : (free, c) buckling modes of an earlier, similar state
+    effort : how well factors and second order are to be known
     """
-    options, names = options or Analysis(), tuple(combinations)
-    placed = cases if isinstance(cases, PlacedLoads) else place_on_model(model, cases)
-    forces = nodal_forces(model.operators, placed.at(thickness))
-    factors = combination_matrix(combinations, placed.names)
-    strains = placed.strains(thickness, material.thermal_expansion)
-    moved = _settle(model, placed)
-    values = assemble_stiffness(model.operators, model.pattern, thickness, material.youngs_modulus)
-    try:
-        solution = Solution(model, thickness, material, values, options.solver)
-    except NotPositiveDefiniteError:
-        return _mechanism(model, names, forces @ factors, values, options.solver)
-    by_case = solution.solve(forces, strains, moved)
-    basic = AnalysisResult(
-        "ok", "first order only", names, by_case @ factors, by_case @ factors, forces @ factors,
-        imposed=None if strains is None else strains @ factors,
-    )  # fmt: skip
-    if not options.second_order:
-        return basic
-    buckling = solution.buckling(by_case, strains, factors, start_modes)
-    settled = None if moved is None else moved @ factors
-    return _go_on(solution, replace(basic, buckling=buckling), options, settled)
+    analysis = ShellAnalysis(model, thickness, material, cases, combinations, options)
+    return analysis.run(effort, start_modes)
+
+
+class ShellAnalysis:
+    """A shell of one thickness vector whose stiffness is factorised once, for analyses of it.
+
+    Parameters are those of `analyse_shell`.
+    """
+
+    def __init__(self, model, thickness, material, cases, combinations: Factors, options=None):
+        self._model, self._options = model, options or Analysis()
+        placed = cases if isinstance(cases, PlacedLoads) else place_on_model(model, cases)
+        forces = nodal_forces(model.operators, placed.at(thickness))
+        self._factors = combination_matrix(combinations, placed.names)
+        self._strains = placed.strains(thickness, material.thermal_expansion)
+        self._moved = _settle(model, placed)
+        self._names, self._loads = tuple(combinations), forces @ self._factors
+        modulus, self._checked = material.youngs_modulus, False
+        self._values = assemble_stiffness(model.operators, model.pattern, thickness, modulus)
+        try:
+            values, solver = self._values, self._options.solver
+            self._solution = Solution(model, thickness, material, values, solver)
+        except NotPositiveDefiniteError:
+            self._solution = None
+            return
+        self._by_case = self._solution.solve(forces, self._strains, self._moved)
+        self._first_order = self._by_case @ self._factors
+
+    def run(self, effort: Effort, start_modes: np.ndarray | None = None) -> AnalysisResult:
+        """Return first order, buckling factors and second order of all combinations.
+
+        start_modes (free, c) are buckling modes of an earlier, similar state, without unit.
+        """
+        if self._is_mechanism(effort):
+            return self._report_mechanism()
+        if not self._options.second_order:
+            return self._report_first_order()
+        state = self._by_case, self._strains, self._factors
+        return self.bend(self._solution.buckling(*state, start_modes, effort), effort)
+
+    def bend(self, buckling: BucklingResult, effort: Effort) -> AnalysisResult:
+        """Return the result of second order, if the state of first order is stable."""
+        model, options, names = self._model, self._options, self._names
+        basic = replace(self._report_first_order(), buckling=buckling)
+        lowest = int(np.argmin(buckling.factors))
+        if buckling.factors[lowest] <= 1:
+            reason = f"buckling factor {buckling.factors[lowest]:.4g} of {names[lowest]} is below 1"
+            return replace(basic, state="unstable", reason=reason)
+        imperfection = initial_shape(model, buckling, lowest, self._loads, options.imperfection)
+        settled = None if self._moved is None else self._moved @ self._factors
+        tolerance = max(options.second_order_tolerance, effort.second_order_tolerance)
+        second = self._solution.second_order(
+            basic.first_order, tolerance, options.second_order_iterations_max,
+            State(imperfection, basic.imposed, settled),
+        )  # fmt: skip
+        displacement = np.zeros_like(basic.first_order) if settled is None else settled.copy()
+        displacement[model.pattern.dofs] = second.displacement
+        verdict, reason = _judge(names, second, buckling)
+        return replace(
+            basic, state=verdict, reason=reason, displacement=displacement, second_order=second,
+            imperfection=imperfection,
+        )  # fmt: skip
+
+    def _report_first_order(self) -> AnalysisResult:
+        return AnalysisResult(
+            "ok", "first order only", self._names, self._first_order, self._first_order,
+            self._loads, imposed=None if self._strains is None else self._strains @ self._factors,
+        )  # fmt: skip
+
+    def _is_mechanism(self, effort: Effort) -> bool:
+        if self._solution is not None and effort.check_mechanism and not self._checked:
+            if self._solution.is_singular(self._values):
+                self._solution = None
+            self._checked = True
+        return self._solution is None
+
+    def _report_mechanism(self) -> AnalysisResult:
+        """Report where the stiffness gives way, and no numbers."""
+        nothing = np.full(self._loads.shape, np.nan)
+        reason, node = describe_mechanism(self._model, self._values, self._options.solver)
+        empty = self._names, nothing, nothing, self._loads
+        return AnalysisResult("mechanism", reason, *empty, mechanism_node=node)
 
 
 def place_on_model(model: ShellModel, cases: Sequence[SurfaceLoad]) -> PlacedLoads:
@@ -192,27 +273,6 @@ def _settle(model: ShellModel, placed: PlacedLoads) -> np.ndarray | None:
     return moved
 
 
-def _go_on(
-    solution: Solution, basic: AnalysisResult, options: Analysis, settled: np.ndarray | None
-) -> AnalysisResult:
-    """Go on to second order from the state of first order, if it is stable."""
-    model, buckling, names = solution.model, basic.buckling, basic.names
-    lowest = int(np.argmin(buckling.factors))
-    if buckling.factors[lowest] <= 1:
-        reason = f"buckling factor {buckling.factors[lowest]:.4g} of {names[lowest]} is below 1"
-        return replace(basic, state="unstable", reason=reason)
-    imperfection = _initial_shape(model, buckling, lowest, basic.loads, options.imperfection)
-    state = State(imperfection, basic.imposed, settled)
-    second = solution.second_order(basic.first_order, options, state)
-    displacement = np.zeros_like(basic.first_order) if settled is None else settled.copy()
-    displacement[model.pattern.dofs] = second.displacement
-    verdict, reason = _judge(names, second, buckling)
-    return replace(
-        basic, state=verdict, reason=reason, displacement=displacement, second_order=second,
-        imperfection=imperfection,
-    )  # fmt: skip
-
-
 def _judge(names, second: SecondOrderResult, buckling: BucklingResult) -> tuple[str, str]:
     """Return the state, and in words what did not converge."""
     if not second.converged:
@@ -225,29 +285,3 @@ def _judge(names, second: SecondOrderResult, buckling: BucklingResult) -> tuple[
         change = buckling.change.max()
         return "not_converged", f"buckling factors still change by {change:.1e}"
     return "ok", ""
-
-
-def _initial_shape(model, buckling, column: int, loads, size: float) -> np.ndarray | None:
-    """Return the scaled mode of one combination (dofs,), or None for none."""
-    if size == 0 or not np.isfinite(buckling.factors[column]):
-        return None
-    shape = np.zeros(model.mesh.dof_count)
-    shape[model.pattern.free] = buckling.modes[:, column]
-    moved = shape[: 3 * len(model.mesh.nodes)].reshape(-1, 3)
-    sign = -1.0 if shape @ loads[:, column] < 0 else 1.0
-    return shape * (sign * size / np.linalg.norm(moved, axis=1).max())
-
-
-def _mechanism(model, names, loads, values, solver) -> AnalysisResult:
-    """Report where the stiffness gives way, and no numbers."""
-    nothing = np.full(loads.shape, np.nan)
-    reason, node = "the stiffness matrix is not positive definite", None
-    vector = find_near_null_vector(model.pattern, values, solver)
-    if vector is not None:
-        full = np.zeros(model.mesh.dof_count)
-        full[model.pattern.dofs] = vector
-        moved = np.linalg.norm(full[: 3 * len(model.mesh.nodes)].reshape(-1, 3), axis=1)
-        node = int(moved.argmax())
-        x, y, z = model.mesh.nodes[node]
-        reason += f": a mechanism moves most at node {node}, ({x:.3f}, {y:.3f}, {z:.3f}) m"
-    return AnalysisResult("mechanism", reason, names, nothing, nothing, loads, mechanism_node=node)

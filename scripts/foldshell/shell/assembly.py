@@ -6,6 +6,7 @@ and an entry's place follows by arithmetic. Groups stand in an order of little f
 """
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
@@ -41,6 +42,11 @@ class LowerPattern:
     def size(self) -> int:
         """Number of free degrees of freedom."""
         return len(self.indptr) - 1
+
+    @cached_property
+    def ascending(self) -> np.ndarray:
+        """Rows (size,) in the order of their degrees of freedom. As numbers."""
+        return np.argsort(self.dofs)
 
 
 def translation_dofs(nodes: np.ndarray, directions: tuple[int, ...] = (0, 1, 2)) -> np.ndarray:

@@ -11,24 +11,16 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-PAIRS = 2
-"""Least number of modes that are followed for each combination. All but the first are only found
-roughly, which is what keeps the first from settling on a mode that is not the lowest."""
+from foldshell.shell.effort import NEAR, USUAL, Effort
 
-FOLLOWED = 8
-"""Least number of modes that are followed in all: few combinations follow more modes each."""
-
-NEIGHBOUR_TOLERANCE = 0.2
-"""Change at which all but the first mode are known well enough."""
+GROWTH = 10.0
+"""Multiple of the square of a change by which 1/factor may still grow: that of a gap of a tenth."""
 
 LARGEST_FACTOR = 1e8
 """A larger factor is taken for none at all."""
 
 SEARCH_ITERATIONS = 12
 """Iterations after which a structure without a positive factor counts as free of compression."""
-
-START_VECTORS = 8
-"""Random vectors to begin with."""
 
 START_SEED = 2018
 """Seed of the start vectors, fixed so that reruns agree to the last bit."""
@@ -62,7 +54,7 @@ def find_buckling_factors(
     factors: np.ndarray,
     size: int,
     start: np.ndarray | None = None,
-    tolerance: float = 1e-2,
+    effort: Effort = USUAL,
     iterations_max: int = 60,
 ) -> BucklingResult:
     """Find the least positive buckling factor of each combination.
@@ -73,35 +65,34 @@ def find_buckling_factors(
     apply_cases : maps (size, k) to K_g of each load case times it, (cases, size, k)
     factors : (cases, c) combination factors
     start : (size, c) modes of a similar structure to begin with
-    tolerance : on `change`, see `BucklingResult`
+    effort : how it begins and when it ends; without random vectors only if there is a `start`
 
     Factors without unit.
     """
     first, which, ratio = _proportional_columns(factors)
     begin = None if start is None else start[:, first]
-    found = _find_distinct(
-        solve, apply_cases, factors[:, first], size, begin, tolerance, iterations_max
-    )
+    cases = factors[:, first]
+    found = _find_distinct(solve, apply_cases, cases, size, begin, effort, iterations_max)
     with np.errstate(divide="ignore"):
         values = np.where(ratio > 0, found.factors[which] / ratio, np.inf)
     return replace(found, factors=values, modes=found.modes[:, which], change=found.change[which])
 
 
 def _find_distinct(
-    solve, apply_cases, factors, size, start, tolerance, iterations_max
+    solve, apply_cases, factors, size, start, effort: Effort, iterations_max
 ) -> BucklingResult:
     """Find the factors of combinations none of which is a multiple of another."""
     space = _Subspace(solve, apply_cases, len(factors), size)
-    begin = np.random.default_rng(START_SEED).standard_normal((size, START_VECTORS))
-    if start is not None:
-        begin = np.hstack([begin, _own_images(apply_cases, start, factors)])
-    space.extend(begin)
-    pairs = min(max(PAIRS, -(-FOLLOWED // factors.shape[1])), size)
+    space.extend(_begin(apply_cases, factors, size, start, effort))
+    pairs = min(max(effort.pairs, -(-effort.followed // factors.shape[1])), size)
     change = np.full((pairs, factors.shape[1]), np.inf)
-    limit = np.array([tolerance, *[NEIGHBOUR_TOLERANCE] * (pairs - 1)])[:, None]
+    before = np.zeros_like(change)
     for number in range(iterations_max):
         values, vectors = space.largest(factors, pairs)
+        change = np.maximum(change, _expect_more(before, values))
+        before = values
         searching = (values * LARGEST_FACTOR > 1) | ((number < SEARCH_ITERATIONS) & (values != 0))
+        limit = _limits(values, effort)
         pair, column = np.nonzero((change > limit) & searching)
         if not len(pair):
             break
@@ -112,9 +103,37 @@ def _find_distinct(
     values, vectors = space.largest(factors, 1)
     compressed = values[0] * LARGEST_FACTOR > 1
     result = np.where(compressed, 1 / np.where(compressed, values[0], 1.0), np.inf)
-    done = bool(((change[0] <= tolerance) | ~compressed).all())
+    done = bool(((change[0] <= _limits(values, effort)[0]) | ~compressed).all())
     modes = space.combine(vectors[0])
     return BucklingResult(result, modes, change[0], space.solves, done)
+
+
+def _begin(apply_cases, factors, size, start, effort: Effort) -> np.ndarray:
+    """Return the forces (size, k) with which the search begins."""
+    count = effort.random_vectors if start is not None else max(effort.random_vectors, 1)
+    begin = np.random.default_rng(START_SEED).standard_normal((size, count))
+    if start is None:
+        return begin
+    return np.hstack([begin, _own_images(apply_cases, start, factors)])
+
+
+def _expect_more(before: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Return the least change (pairs, c) of modes whose 1/factor grew from `before` to `values`.
+
+    A mode that stands exactly on a higher one hardly changes, whatever is below: a factor that
+    falls once the space has grown shows it.
+    """
+    known = (before > 0) & (values > before)
+    growth = np.where(known, values / np.where(known, before, 1.0) - 1, 0.0)
+    return np.sqrt(growth / GROWTH)
+
+
+def _limits(values: np.ndarray, effort: Effort) -> np.ndarray:
+    """Return the change (pairs, c) at which each mode is known well enough; values are 1/factor."""
+    limit = np.full(values.shape, effort.neighbour_tolerance)
+    near = values[0] * NEAR >= values[0].max()
+    limit[0] = np.where(near, effort.near_tolerance, effort.far_tolerance)
+    return limit
 
 
 def _proportional_columns(factors: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:

@@ -12,7 +12,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from foldshell.shell.nodal import gather_forces, sum_at_nodes
+from foldshell.shell.nodal import gather_forces
 from foldshell.shell.reference import orthonormal_basis, reference_triangle, triangle_quadrature
 from foldshell.shell.stiffness import ShellOperators
 
@@ -53,27 +53,18 @@ def apply_geometric(
     operators: ShellOperators, force: np.ndarray, displacement: np.ndarray
 ) -> np.ndarray:
     """Return K_g(N_c) u_c for each column c: N (E, 3, m, c) kN/m and u (dofs, c) to (dofs, c)."""
-    tables = geometric_tables(operators.mesh.order)
     mesh, columns = operators.mesh, displacement.shape[1]
     count, nodes = mesh.elements.shape
-    points = len(tables.psi)
-    moved = displacement[: 3 * len(mesh.nodes)].reshape(-1, 3 * columns).T.copy()
-    pulled = pull_back(operators, force).transpose(3, 0, 1, 2)
-    element = np.empty((3, columns, count, nodes))
+    square = _square_products(mesh.order)
+    moved = displacement[: 3 * len(mesh.nodes)].reshape(-1, 3, columns).swapaxes(1, 2).copy()
+    pulled = pull_back(operators, force).transpose(0, 3, 1, 2).reshape(count, columns, -1)
+    element = np.empty((count, nodes, 3, columns))
     for start in range(0, count, CHUNK):
         part = slice(start, start + CHUNK)
-        local = moved[:, mesh.elements[part]]
-        size = local.shape[1]
-        slope = (local.reshape(-1, nodes) @ tables.slope.T).reshape(3, columns, size, 2, points)
-        tensor = pulled[:, part].reshape(-1, pulled.shape[3]) @ tables.psi.T
-        rr, ss, rs = np.moveaxis(tensor.reshape(columns, size, 3, points), 2, 0)
-        flow = np.empty_like(slope)
-        np.multiply(rr, slope[..., 0, :], out=flow[..., 0, :])
-        flow[..., 0, :] += rs * slope[..., 1, :]
-        np.multiply(ss, slope[..., 1, :], out=flow[..., 1, :])
-        flow[..., 1, :] += rs * slope[..., 0, :]
-        pushed = flow.reshape(-1, 2 * points) @ tables.slope
-        element[:, :, part] = pushed.reshape(3, columns, size, nodes)
+        local = np.ascontiguousarray(moved[mesh.elements[part]].swapaxes(1, 2))
+        matrices = pulled[part].reshape(-1, len(square)) @ square
+        pushed = np.matmul(matrices.reshape(-1, columns, nodes, nodes), local)
+        element[part] = pushed.transpose(0, 2, 3, 1)
     return gather_forces(mesh, element)
 
 
@@ -97,18 +88,15 @@ def make_geometric_products(
 
     def multiply(vectors: np.ndarray) -> np.ndarray:
         """Return K_g of each case times vectors (size, k), (cases, size, k)."""
-        # fields as rows: products and sums of long rows are several times as fast
         count = vectors.shape[1]
-        full = np.zeros((count, 3 * nodes))
-        full[:, translations] = vectors.T[:, moving]
-        moved = full.reshape(count, nodes, 3).transpose(0, 2, 1).reshape(3 * count, nodes)
-        local = moved[:, mesh.elements].transpose(1, 0, 2)
-        result = np.zeros((cases, count, len(vectors)))
+        full = np.zeros((3 * nodes, count))
+        full[translations] = vectors[moving]
+        local = full.reshape(nodes, 3 * count)[mesh.elements]
+        result = np.zeros((cases, len(vectors), count))
         for case, matrix in enumerate(matrices):
-            pushed = sum_at_nodes(mesh, np.matmul(local, matrix).transpose(1, 0, 2))
-            pushed = pushed.reshape(count, 3, nodes).transpose(0, 2, 1).reshape(count, 3 * nodes)
-            result[case][:, moving] = pushed[:, translations]
-        return result.transpose(0, 2, 1)
+            pushed = mesh.node_sum.add(np.matmul(matrix, local).reshape(-1, 3 * count))
+            result[case, moving] = pushed.reshape(-1, count)[translations]
+        return result
 
     return multiply
 
@@ -116,12 +104,19 @@ def make_geometric_products(
 def _element_matrices(operators: ShellOperators, force: np.ndarray) -> np.ndarray:
     """Return K_g of each column of N element by element, (c, E, n, n)."""
     nodes = operators.mesh.elements.shape[1]
-    tables = geometric_tables(operators.mesh.order)
-    i, j = np.divmod(np.arange(nodes**2), nodes)
-    i, j = np.maximum(i, j), np.minimum(i, j)
-    square = tables.product[:, i * (i + 1) // 2 + j]
+    square = _square_products(operators.mesh.order)
     pulled = pull_back(operators, force).transpose(3, 0, 1, 2)
     return (pulled.reshape(-1, len(square)) @ square).reshape(*pulled.shape[:2], nodes, nodes)
+
+
+@lru_cache(maxsize=8)
+def _square_products(order: int) -> np.ndarray:
+    """Return the table `product` for whole matrices (3m, n n) in place of lower triangles."""
+    tables = geometric_tables(order)
+    nodes = tables.slope.shape[1]
+    i, j = np.divmod(np.arange(nodes**2), nodes)
+    i, j = np.maximum(i, j), np.minimum(i, j)
+    return tables.product[:, i * (i + 1) // 2 + j]
 
 
 def pull_back(operators: ShellOperators, force: np.ndarray) -> np.ndarray:

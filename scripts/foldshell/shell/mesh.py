@@ -1,9 +1,11 @@
 """Shell mesh: flat facets, each covered by k x k triangles of order p on a common lattice."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
+from foldshell.shell.nodal import NodeSum
 from foldshell.shell.reference import EDGES, lattice_indices
 
 
@@ -48,6 +50,11 @@ class ShellMesh:
     def corners(self) -> np.ndarray:
         """Node numbers of the element corners, (E, 3)."""
         return self.elements[:, corner_positions(self.order)]
+
+    @cached_property
+    def node_sum(self) -> NodeSum:
+        """How element values are summed at the nodes."""
+        return NodeSum(self.elements, len(self.nodes))
 
 
 def corner_positions(order: int) -> np.ndarray:

@@ -52,20 +52,19 @@ def support_reactions(
 ) -> np.ndarray:
     """Return the reactions (S, 3, c) kN of the supported nodes, from element resultants.
 
-    They are summed anew from stresses, not taken from the solver, so their balance with the
-    loads tests both. What an elastic support exerts, -k u, is part of it; along directions in which
-    no support acts there is none.
+    They are summed anew from stresses in the elements there, not taken from the solver, so their
+    balance with the loads tests both. What an elastic support exerts, -k u, is part of it; along
+    directions in which no support acts there is none.
     """
-    resultants = stress_resultants(
-        model.operators, result.displacement, thickness, material.youngs_modulus, result.imposed
-    )
-    internal = internal_forces(model.operators, resultants)
+    chosen, operators = model.beside_supports
+    moved, own = result.displacement, thickness[chosen]
+    imposed = None if result.imposed is None else result.imposed[chosen]
+    resultants = stress_resultants(operators, moved, own, material.youngs_modulus, imposed)
+    internal = internal_forces(operators, resultants)
     if result.second_order is not None:
-        shape = result.displacement
         if result.imperfection is not None:
-            shape = shape + result.imperfection[:, None]
-        push = apply_geometric(model.operators, resultants.force, shape)
-        internal = internal + push
+            moved = moved + result.imperfection[:, None]
+        internal = internal + apply_geometric(operators, resultants.force, moved)
     reaction = translations(model, internal - result.loads)[model.supported_nodes]
     if model.acting is None:
         return reaction

@@ -1,14 +1,17 @@
 """K of one thickness vector, factorised, and the ways in which an analysis uses it."""
 
+from __future__ import annotations
+
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
-from foldshell.settings.analysis import Analysis
 from foldshell.shell.buckling import BucklingResult, find_buckling_factors
+from foldshell.shell.effort import Effort
 from foldshell.shell.geometric import apply_geometric, make_geometric_products
-from foldshell.shell.linear_solver import Factor, NotPositiveDefiniteError, factorise
-from foldshell.shell.near_null import is_singular
+from foldshell.shell.linear_solver import Factor, factorise
+from foldshell.shell.near_null import find_near_null_vector, is_singular
 from foldshell.shell.second_order import SecondOrderResult, solve_second_order
 from foldshell.shell.stress import (
     imposed_resultants,
@@ -16,6 +19,9 @@ from foldshell.shell.stress import (
     membrane_forces,
     stress_resultants,
 )
+
+if TYPE_CHECKING:
+    from foldshell.shell.analysis import ShellModel
 
 
 @dataclass(frozen=True)
@@ -29,15 +35,20 @@ class State:
 
 
 class Solution:
-    """K factorised for one thickness vector, and the three ways in which it is used."""
+    """K factorised for one thickness vector, and the ways in which it is used."""
 
     def __init__(self, model, thickness, material, values, solver) -> None:
         self.model, self._thickness = model, thickness
         self._modulus = material.youngs_modulus
         self._factor: Factor = factorise(model.pattern, values, solver)
-        if is_singular(self._factor.solve, model.pattern, values):
-            raise NotPositiveDefiniteError(0)
         self._dofs = model.pattern.dofs
+
+    def is_singular(self, values: np.ndarray) -> bool:
+        """Tell whether the factor of the stiffness `values` (nnz,) is one of round-off.
+
+        In kN/m, kN and kNm.
+        """
+        return is_singular(self._factor.solve, self.model.pattern, values)
 
     def solve(
         self, forces: np.ndarray, strains: np.ndarray | None, moved: np.ndarray | None
@@ -59,7 +70,9 @@ class Solution:
             return force
         return force - imposed_resultants(operators, imposed, t, modulus).force
 
-    def buckling(self, first_order_cases, strains, factors, start) -> BucklingResult:
+    def buckling(
+        self, first_order_cases, strains, factors, start, effort: Effort
+    ) -> BucklingResult:
         """Return the buckling factor and the mode of every combination."""
         # as few geometric stiffnesses as the combinations are independent
         mixing, weights, independent = np.linalg.svd(factors, full_matrices=False)
@@ -71,16 +84,17 @@ class Solution:
         dofs = self._dofs
         multiply = make_geometric_products(self.model.operators, forces, dofs)
         # modes are kept in ascending order of freedoms, the factor works in its own
-        place = np.argsort(dofs)
+        place = self.model.pattern.ascending
         if start is not None:
             own = np.empty_like(start, dtype=float)
             own[place] = start
             start = own
-        found = find_buckling_factors(self._factor.solve, multiply, factors, len(dofs), start)
+        solve, size = self._factor.solve, len(dofs)
+        found = find_buckling_factors(solve, multiply, factors, size, start, effort)
         return replace(found, modes=found.modes[place])
 
     def second_order(
-        self, first_order: np.ndarray, options: Analysis, state: State
+        self, first_order: np.ndarray, tolerance: float, iterations_max: int, state: State
     ) -> SecondOrderResult:
         """Return second-order displacements, from an imperfect shape where there is one.
 
@@ -99,9 +113,39 @@ class Solution:
             force = apply_geometric(operators, self.forces(full, imposed), shape)
             return -self._factor.solve(force[dofs])
 
-        return solve_second_order(
-            first_order[dofs],
-            correction,
-            options.second_order_tolerance,
-            options.second_order_iterations_max,
-        )
+        return solve_second_order(first_order[dofs], correction, tolerance, iterations_max)
+
+
+def initial_shape(
+    model: ShellModel, buckling: BucklingResult, column: int, loads: np.ndarray, size: float
+) -> np.ndarray | None:
+    """Return the mode of one combination (dofs,) of largest translation `size` m, None for none.
+
+    It is turned to the side to which the loads (dofs, c), in kN, of that combination push it.
+    """
+    if size == 0 or not np.isfinite(buckling.factors[column]):
+        return None
+    shape = np.zeros(model.mesh.dof_count)
+    shape[model.pattern.free] = buckling.modes[:, column]
+    moved = shape[: 3 * len(model.mesh.nodes)].reshape(-1, 3)
+    sign = -1.0 if shape @ loads[:, column] < 0 else 1.0
+    return shape * (sign * size / np.linalg.norm(moved, axis=1).max())
+
+
+def describe_mechanism(
+    model: ShellModel, values: np.ndarray, solver: str
+) -> tuple[str, int | None]:
+    """Say where the stiffness gives way, and name the node that moves most, if one is found.
+
+    values (nnz,) of its lower triangle in kN/m, kN and kNm.
+    """
+    reason, node = "the stiffness matrix is not positive definite", None
+    vector = find_near_null_vector(model.pattern, values, solver)
+    if vector is not None:
+        full = np.zeros(model.mesh.dof_count)
+        full[model.pattern.dofs] = vector
+        moved = np.linalg.norm(full[: 3 * len(model.mesh.nodes)].reshape(-1, 3), axis=1)
+        node = int(moved.argmax())
+        x, y, z = model.mesh.nodes[node]
+        reason += f": a mechanism moves most at node {node}, ({x:.3f}, {y:.3f}, {z:.3f}) m"
+    return reason, node

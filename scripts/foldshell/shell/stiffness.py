@@ -1,6 +1,6 @@
 """Element matrices, built once a geometry: K = t K_m + t^3 K_b for every thickness."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, fields, replace
 
 import numpy as np
 
@@ -67,6 +67,26 @@ def build_operators(mesh: ShellMesh, poissons_ratio: float) -> ShellOperators:
         membrane=_packed_membrane(mesh.order, axes, elasticity, geometry.area),
         bending=_packed_bending(curvature, jump, spring, elasticity, geometry),
         dofs=element_dofs(mesh),
+    )
+
+
+def restrict_operators(operators: ShellOperators, chosen: np.ndarray) -> ShellOperators:
+    """Return the operators of some elements alone, (k,) numbers; nodes keep their numbers.
+
+    The stiffness matrices are left out.
+    """
+    mesh, whole = operators.mesh, operators.geometry
+    parts = ("elements", "element_edges", "edge_signs", "facet", "panel")
+    taken = {name: getattr(mesh, name)[chosen] for name in parts}
+    own = {one.name: getattr(whole, one.name)[chosen] for one in fields(whole)}
+    parts = ("strain_axes", "curvature", "slope_jump", "slope_spring", "dofs")
+    return replace(
+        operators,
+        mesh=replace(mesh, **taken),
+        geometry=ElementGeometry(**own),
+        membrane=operators.membrane[:0],
+        bending=operators.bending[:0],
+        **{name: getattr(operators, name)[chosen] for name in parts},
     )
 
 

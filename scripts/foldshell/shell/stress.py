@@ -24,6 +24,11 @@ class StressResultants:
     moment: np.ndarray
     jump: np.ndarray
 
+    def column(self, number: int) -> "StressResultants":
+        """Return those of one load column."""
+        one = slice(number, number + 1)
+        return StressResultants(self.force[..., one], self.moment[..., one], self.jump[..., one])
+
 
 def stress_resultants(
     operators: ShellOperators,
@@ -106,7 +111,7 @@ def internal_forces(operators: ShellOperators, resultants: StressResultants) -> 
     push = push.reshape(count, nodes, 3, columns) + local[:, :nodes, None] * normal
     turning = local[:, nodes:].reshape(-1, columns)
     numbers = operators.dofs[:, 3 * nodes :].ravel()
-    total = gather_forces(mesh, push.transpose(2, 3, 0, 1))
+    total = gather_forces(mesh, push)
     for column in range(columns):
         total[:, column] += np.bincount(numbers, turning[:, column], mesh.dof_count)
     return total
@@ -160,6 +165,19 @@ def surface_stresses(force: np.ndarray, moment: np.ndarray, thickness: np.ndarra
     t = thickness[:, None, None, None]
     membrane, bending = force / t, 6 * moment / t**2
     return np.stack([membrane - bending, membrane, membrane + bending])
+
+
+def outer_stresses(
+    operators: ShellOperators, resultants: StressResultants, thickness: np.ndarray, points
+) -> np.ndarray:
+    """Return N/t -+ 6M/t^2 at reference points (q, 2): (2, 3, c, E, q) kPa, top and bottom.
+
+    A convex function of stress is nowhere larger at the middle surface, the mean of these two.
+    """
+    t = thickness[:, None, None, None]
+    membrane, bending = resultants.force / t, 6 * resultants.moment / t**2
+    both = np.stack([membrane - bending, membrane + bending]).transpose(0, 2, 4, 1, 3)
+    return both @ orthonormal_basis(operators.mesh.order - 1, points).T
 
 
 def _apply_elasticity(operators: ShellOperators, strain: np.ndarray) -> np.ndarray:

@@ -1,9 +1,10 @@
 """Which state of a loop is handed on: the last, or the best where the loop found no end."""
 
 from collections.abc import Sequence
+from dataclasses import fields as fields_of
 from dataclasses import replace
 
-from foldshell.records.analysis import AnalysisRecord, LastIteration
+from foldshell.records.analysis import AnalysisRecord, LastIteration, ShellState
 from foldshell.records.analysis_arrays import AnalysisArrays
 from foldshell.sizing.case import AnalysisCase
 from foldshell.sizing.iteration import IterationTask
@@ -68,12 +69,15 @@ def complete_delivered(
 ) -> tuple[AnalysisRecord, AnalysisArrays]:
     """Analyse a state of the loop once more, for the fields that only the last one has.
 
-    `before` is the iteration before it, None for the first; span m. From the same thicknesses and
-    the same start every number is the same.
+    `before` is the iteration before it, None for the first; span m. Every number is that of a full
+    analysis, which inside the loop it need not have been.
     """
     record, arrays = delivered
     task = IterationTask(
         record.iteration, span, arrays.thickness, *(before or (None, None)), record.edited_panels
     )
     found, fields = case.run(task, alone=True)
-    return replace(record, model_warnings=found.model_warnings), fields
+    known = {one.name: getattr(found, one.name) for one in fields_of(ShellState)}
+    more = {name: getattr(found, name) for name in ("criteria", "model_warnings")}
+    bound = found.buckling_factor_bound
+    return replace(record, **known, **more, buckling_factor_bound=bound), fields

@@ -32,7 +32,7 @@ class Analysed:
 
     `panels` and `edge_beam_panels` hold the utilization of the sized panels (P,) and of an edge
     beam (B,) by measure. They are empty, and `stress` is None, where the analysis left no
-    displacements to rely on.
+    displacements to rely on. `random_vectors` tells whether buckling was searched for with them.
     """
 
     case: AnalysisCase
@@ -42,6 +42,7 @@ class Analysed:
     stress: StressState | None = None
     panels: Mapping[str, np.ndarray] = field(default_factory=dict)
     edge_beam_panels: Mapping[str, np.ndarray] = field(default_factory=dict)
+    random_vectors: bool = True
 
     @property
     def utilization(self) -> Utilization | None:

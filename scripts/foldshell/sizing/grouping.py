@@ -7,6 +7,7 @@ import numpy as np
 from foldshell.records.analysis import AnalysisRecord, Criteria, ShellState
 from foldshell.records.analysis_arrays import AnalysisArrays, ClassesArrays
 from foldshell.records.classes import ClassesRecord, ThicknessClass
+from foldshell.shell.effort import USUAL
 from foldshell.shell.results import panel_area
 from foldshell.sizing.classes import ThicknessClasses, group_thicknesses
 from foldshell.sizing.iteration import AnalysisCase, IterationTask
@@ -50,7 +51,7 @@ def analyse_classes(
         groups = group_thicknesses(needed, area, count)
         thickness = round_thickness(groups.thickness)
         task = IterationTask(last.iteration, span, thickness, None, before)
-        found, its_arrays = replace(case, factor_min=None).run(task)
+        found, its_arrays = replace(case, factor_min=None).run(task, effort=USUAL)
         used = its_arrays.utilization(case.sizing.measure)
         share = np.zeros(1) if used is None else used / limit
         if found.state != "ok" or share.max() <= 1 or raised == ROUNDS_MAX:

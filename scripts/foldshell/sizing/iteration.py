@@ -15,8 +15,16 @@ from foldshell.settings.analysis import Analysis
 from foldshell.settings.loads import Combinations
 from foldshell.settings.material import Material
 from foldshell.settings.sizing import Sizing
-from foldshell.shell.analysis import ShellModel, analyse_shell
+from foldshell.shell.analysis import AnalysisResult, ShellAnalysis, ShellModel
+from foldshell.shell.effort import COLD, FULL, START, USUAL, WARM, Effort
 from foldshell.shell.placed_loads import PlacedLoads
+from foldshell.sizing.accuracy import (
+    bound_hidden_factor,
+    choose_effort,
+    is_doubtful,
+    is_factor_close,
+    is_state_close,
+)
 from foldshell.sizing.criteria import IterationState, Verdict, judge_iteration
 from foldshell.sizing.describe import (
     Analysed,
@@ -46,6 +54,11 @@ class IterationTask:
     edited_panels: tuple[int, ...] | None = None
 
     @property
+    def modes(self) -> np.ndarray | None:
+        """Buckling modes (free, c) of the analysis before, None without any. Without unit."""
+        return self.previous_arrays.buckling_modes if self.previous_arrays else None
+
+    @property
     def counted_from(self) -> int:
         """Iteration from which the allowed ones count: a change by a person starts a new count."""
         if self.edited_panels:
@@ -71,7 +84,7 @@ class AnalysisCase:
     strips: Strips | None = None
 
     def run(
-        self, task: IterationTask, alone: bool = False
+        self, task: IterationTask, alone: bool = False, effort: Effort = FULL
     ) -> tuple[AnalysisRecord, AnalysisArrays]:
         """Analyse one thickness vector: what analysis.json and analysis.npz hold.
 
@@ -80,25 +93,71 @@ class AnalysisCase:
         constraints.
         """
         began = time.perf_counter()
-        done = _analyse(self, task)
-        record, arrays = _describe(done), collect_arrays(done)
-        if done.utilization is not None:
-            record = describe_edge_beam(done, describe_sheet(done, record))
-        if alone or not record.goes_on:
-            record = replace(record, model_warnings=find_warnings(done))
-        if alone or not record.goes_on:
-            arrays = add_final_fields(done, arrays)
-        elif self.factor_min is not None and done.result.state == "ok":
-            arrays = _add_constraints(done, self.factor_min, arrays)
-        return replace(record, seconds=time.perf_counter() - began), arrays
+        result = prepare_analysis(self, task).run(effort, task.modes)
+        return _report(evaluate(self, task, result, effort), began, alone)
+
+    def run_in_loop(self, task: IterationTask) -> tuple[AnalysisRecord, AnalysisArrays]:
+        """The same with no more effort than the next step needs; all of it where the loop ends."""
+        began = time.perf_counter()
+        return _report(_analyse_in_loop(self, task), began)
 
 
-def _analyse(case: AnalysisCase, task: IterationTask) -> Analysed:
+def _report(done: Analysed, began: float, alone: bool = False):
+    record, arrays = _describe(done), collect_arrays(done)
+    if done.utilization is not None:
+        record = describe_edge_beam(done, describe_sheet(done, record))
+    if alone or not record.goes_on:
+        record = replace(record, model_warnings=find_warnings(done))
+        arrays = add_final_fields(done, arrays)
+    elif done.case.factor_min is not None and done.result.state == "ok":
+        arrays = _add_constraints(done, done.case.factor_min, arrays)
+    return replace(record, seconds=time.perf_counter() - began), arrays
+
+
+def _analyse_in_loop(case: AnalysisCase, task: IterationTask) -> Analysed:
+    """Analyse with little effort first, then with as much as its verdict and next step need."""
+    sizing, analysis = case.sizing, prepare_analysis(case, task)
+    modes, edited = task.modes, bool(task.edited_panels)
+    effort = choose_effort(sizing, task.thickness, task.previous, task.previous_arrays, edited)
+    result = analysis.run(effort, modes)
+    if effort in (COLD, WARM) and is_doubtful(sizing, result.least_factor):
+        effort = START
+        result = analysis.run(effort, result.buckling.modes)
+    done = evaluate(case, task, result, effort)
+    if effort is USUAL and _goes_on(done):
+        return done
+    if done.utilization is not None and _is_close(done) and _goes_on(done):
+        effort = replace(effort, second_order_tolerance=0.0)
+        done = evaluate(case, task, analysis.bend(result.buckling, effort), effort)
+    if not _goes_on(done) or is_factor_close(sizing, result.least_factor):
+        found = result.buckling.modes if result.buckling else modes
+        done = evaluate(case, task, analysis.run(FULL, found), FULL)
+    return done
+
+
+def _is_close(done: Analysed) -> bool:
+    sizing = done.case.sizing
+    own = [part[sizing.measure] for part in (done.panels, done.edge_beam_panels)]
+    return is_state_close(sizing, np.concatenate(own), done.downward[0], done.task.span)
+
+
+def _goes_on(done: Analysed) -> bool:
+    return done.result.state == "ok" and _judge(done, _volume(done)).verdict == "continue"
+
+
+def prepare_analysis(case: AnalysisCase, task: IterationTask) -> ShellAnalysis:
+    """Factorise the stiffness of a thickness vector."""
+    thickness, groups = case.model.to_elements(task.thickness), case.combinations.all
+    return ShellAnalysis(case.model, thickness, case.material, case.placed, groups, case.options)
+
+
+def evaluate(
+    case: AnalysisCase, task: IterationTask, result: AnalysisResult, effort: Effort
+) -> Analysed:
+    """Add the utilization of points, cells and panels to the result of an analysis."""
     model, material, groups = case.model, case.material, case.combinations
     thickness = model.to_elements(task.thickness)
-    modes = task.previous_arrays.buckling_modes if task.previous_arrays else None
-    result = analyse_shell(model, thickness, material, case.placed, groups.all, case.options, modes)
-    done = Analysed(case, task, thickness, result)
+    done = Analysed(case, task, thickness, result, random_vectors=effort.random_vectors > 0)
     if result.state not in ("ok", "not_converged"):
         return done
     strength = result.displacement[:, : len(groups.strength)]
@@ -112,18 +171,23 @@ def _analyse(case: AnalysisCase, task: IterationTask) -> Analysed:
     return replace(done, stress=stress, panels=panels, edge_beam_panels=edge_beam_panels)
 
 
+def _volume(done: Analysed) -> float:
+    sized, fixed = split_area(done.case.model)
+    return float(sized @ done.task.thickness) + float(fixed @ done.case.model.fixed_thickness)
+
+
 def _describe(done: Analysed) -> AnalysisRecord:
     """Return what every analysis says of itself, whatever its state."""
     model, task, result = done.case.model, done.task, done.result
-    sized, fixed = split_area(model)
-    volume = float(sized @ task.thickness) + float(fixed @ model.fixed_thickness)
+    volume = _volume(done)
     verdict = _judge(done, volume)
     return AnalysisRecord(
         iteration=task.iteration,
         state=result.state,
         volume_m3=volume,
-        area_m2=float(sized.sum()),
+        area_m2=float(split_area(model)[0].sum()),
         buckling_factor=list_factors(result),
+        buckling_factor_bound=_bound_factor(done),
         second_order_iterations=result.second_order.iterations if result.second_order else 0,
         second_order_residual=largest_residual(result),
         dofs=model.pattern.size,
@@ -136,6 +200,18 @@ def _describe(done: Analysed) -> AnalysisRecord:
         edited=task.edited_panels is not None,
         edited_panels=task.edited_panels,
         counted_from=task.counted_from,
+    )
+
+
+def _bound_factor(done: Analysed) -> float | None:
+    """Return what every factor is known to be above: what random vectors found, or less."""
+    task, factor = done.task, done.result.least_factor
+    if factor is None or not np.isfinite(factor):
+        return None
+    if done.random_vectors:
+        return factor
+    return min(
+        factor, bound_hidden_factor(task.previous, task.thickness, task.previous_arrays.thickness)
     )
 
 

@@ -36,7 +36,7 @@ def run_loop(case: AnalysisCase, span: float, sizing: Sizing) -> LoopResult:
         if last:
             step = take_step(last, arrays, memory, sizing)
             thickness, memory = step.thickness, step.memory
-        last, arrays = case.run(IterationTask(len(analyses), span, thickness, last, arrays))
+        last, arrays = case.run_in_loop(IterationTask(len(analyses), span, thickness, last, arrays))
         analyses.append(last)
         states.append(arrays)
     both = list(zip(analyses, states, strict=True))

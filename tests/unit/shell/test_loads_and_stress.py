@@ -17,13 +17,15 @@ from foldshell.loads.cases import LOAD_CASES, combination_matrix, make_load_case
 from foldshell.settings.analysis import Analysis
 from foldshell.settings.loads import Loads
 from foldshell.settings.material import Material, age_material
-from foldshell.shell.analysis import analyse_shell, build_model
+from foldshell.shell.analysis import ShellModel, analyse_shell, build_model
+from foldshell.shell.geometric import apply_geometric
 from foldshell.shell.mesh import build_mesh
 from foldshell.shell.nodal_loads import nodal_forces
 from foldshell.shell.results import reaction_imbalance, support_reactions
 from foldshell.shell.stiffness import build_operators
 from foldshell.shell.stress import (
     cell_points,
+    evaluate,
     internal_forces,
     membrane_forces,
     sample_points,
@@ -212,3 +214,56 @@ def test_utilization_takes_the_governing_combination():
     assert (used.governing == 1).all()
     assert (used.point == used.combination[1]).all()
     assert used.cell == pytest.approx(used.point.mean(axis=2))
+
+
+@pytest.mark.parametrize("criterion", sorted(CRITERIA))
+def test_utilization_of_both_outer_surfaces_is_that_of_all_three(criterion):
+    """Every criterion is convex and the middle surface is the mean of the outer ones."""
+    model = square_model()
+    material = replace(CONCRETE, criterion=criterion)
+    thickness = np.array([0.05, 0.1, 0.2, 0.4])
+    moved = 1e-3 * np.random.default_rng(5).standard_normal((model.mesh.dof_count, 3))
+    resultants = stress_resultants(model.operators, moved, thickness, material.youngs_modulus)
+    points = sample_points(model.mesh.cells)
+    force, moment = (
+        evaluate(model.operators, values, points.reshape(-1, 2))
+        for values in (resultants.force, resultants.moment)
+    )
+    three = CRITERIA[criterion](surface_stresses(force, moment, thickness), material)
+    expected = np.moveaxis(three.max(axis=0), -1, 0)
+    found = compute_utilization(model, moved, thickness, material).combination
+    assert found.reshape(expected.shape) == pytest.approx(expected, rel=1e-12)
+
+
+@pytest.mark.parametrize("percent", [50.0, 90.0, 99.0, 100.0])
+def test_the_percentile_sorts_only_the_largest_values(percent):
+    """Against the sum of areas over all values in order, with elements of unlike size."""
+    nodes = np.array([[0, 0, 0], [5, 0, 0], [5, 1, 0], [0, 0.2, 0]])
+    mesh = build_mesh(nodes, np.array([[0, 1, 2], [0, 2, 3]]), subdivisions=8)
+    operators = build_operators(mesh, 0.2)
+    model = ShellModel(mesh, operators, None, np.arange(3))
+    point = np.random.default_rng(2).random((len(mesh.elements), 5))
+    order = np.argsort(point.ravel())
+    share = np.cumsum(np.repeat(operators.geometry.area, 5)[order])
+    expected = point.ravel()[order][np.searchsorted(share, percent / 100 * share[-1] * (1 - 1e-12))]
+    assert area_percentile(model, point, percent) == expected
+
+
+def test_reactions_come_from_the_elements_at_supports_alone():
+    """The others add nothing: the same by the resultants of all elements."""
+    model = square_model(8)
+    thickness = np.linspace(0.05, 0.2, len(model.mesh.elements))
+    result = analyse_shell(
+        model, thickness, CONCRETE, make_load_cases(Loads(), CONCRETE.unit_weight),
+        {"S2": {"SW": 1.2, "LL": 1.6, "WX": 0.5}},
+    )  # fmt: skip
+    whole = stress_resultants(
+        model.operators, result.displacement, thickness, CONCRETE.youngs_modulus
+    )
+    force = internal_forces(model.operators, whole) - result.loads
+    force += apply_geometric(model.operators, whole.force, result.displacement)
+    expected = force[: 3 * len(model.mesh.nodes)].reshape(-1, 3, 1)[model.supported_nodes]
+    assert len(model.beside_supports[0]) < len(model.mesh.elements)
+    scale = np.abs(expected).max()
+    found = support_reactions(model, result, thickness, CONCRETE)
+    assert found == pytest.approx(expected, abs=1e-12 * scale)

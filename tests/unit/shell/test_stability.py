@@ -439,3 +439,28 @@ def test_a_search_that_has_used_up_all_directions_ends():
     )
     assert found.factors[0] == pytest.approx(1 / 3)
     assert found.converged
+
+
+def test_a_mode_that_falls_once_the_space_has_grown_is_not_taken_for_found():
+    """K = 1 and K_g = -mu: the start stands exactly on the second mode, which hardly changes while
+    random vectors hold little of the first, 8 % below."""
+    mu = np.array([0.6, 0.55, *np.linspace(0, 0.4, 60)])
+    start = np.zeros((len(mu), 1))
+    start[1] = 1.0
+    found = find_buckling_factors(
+        lambda b: b, lambda v: -(mu[:, None] * v)[None], np.ones((1, 1)), len(mu), start
+    )
+    assert found.factors == pytest.approx([1 / 0.6], rel=1e-4)
+
+
+def test_sums_at_nodes_are_those_of_one_element_after_the_other():
+    """To the last bit, on a mesh whose inner nodes have up to six elements, and on a part of it."""
+    model = arch_model()
+    values = np.random.default_rng(3).standard_normal((*model.mesh.elements.shape, 2))
+    for chosen in (np.arange(len(values)), np.arange(0, len(values), 3)):
+        part = replace(model.mesh, elements=model.mesh.elements[chosen])
+        expected = np.zeros((len(model.mesh.nodes), 2))
+        for nodes, own in zip(part.elements, values[chosen], strict=True):
+            expected[nodes] += own
+        found = part.node_sum.add(values[chosen].reshape(-1, 2))
+        assert np.array_equal(found, expected)
