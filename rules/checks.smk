@@ -28,3 +28,32 @@ rule check:
         "{wildcards.design}: engineering checks"
     script:
         "../scripts/check.py"
+
+
+rule design_workbook:
+    input:
+        final=rules.size.output.final,
+        arrays=rules.size.output.arrays,
+        history=rules.size.output.csv,
+        panels=rules.size.output.panels,
+        classes=CLASSES["json"],
+        class_arrays=CLASSES["arrays"],
+        engineering=rules.check.output.record,
+        engineering_arrays=rules.check.output.arrays,
+        folded=panels_of_file,
+        library=code_inputs("design_workbook"),
+    output:
+        workbook=f"{RESULTS}/{{design}}/design.xlsx",
+    log:
+        log_of("design_workbook"),
+    benchmark:
+        timing("design_workbook")
+    priority: AFTER_LOOP
+    conda:
+        "../envs/foldshell.yaml"
+    params:
+        **LOOP_PARAMS["size"],
+    message:
+        "{wildcards.design}: workbook"
+    script:
+        "../scripts/design_workbook.py"

@@ -8,7 +8,6 @@ FINAL = {
     "arrays": f"{LOOP}/final.npz",
     "csv": f"{LOOP}/history.csv",
     "history": f"{LOOP}/history.xlsx",
-    "design": f"{RESULTS}/{{design}}/design.xlsx",
     "panels": f"{LOOP}/iterations.npz",
 }
 """What the end of a loop leaves, by either way to run it."""

@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from foldshell.engine.environment import list_versions
 from foldshell.engine.job import run_job
 from foldshell.records.history import HistoryRow
 from foldshell.records.iteration import read_classes
@@ -12,11 +11,8 @@ from foldshell.results.gather import gather_iterations, remove_superseded, write
 from foldshell.settings.analysed import ANALYSED
 from foldshell.settings.design import Design, Row
 from foldshell.settings.stage import Plain, read_stage
-from foldshell.workbook.design import write_design
 from foldshell.workbook.design_report import make_design_report
 from foldshell.workbook.history import write_history
-
-PACKAGES = ("numpy", "scipy", "cvxopt", "snakemake", "openpyxl", "XlsxWriter")
 
 
 def main(
@@ -25,22 +21,19 @@ def main(
     classes_paths: Sequence[str | Path],
     csv_path: str | Path,
     history_path: str | Path,
-    design_path: str | Path,
     final_paths: Sequence[str | Path],
     *,
     design: Row,
     settings: Plain,
     folded: Sequence[str | Path] = (),
 ) -> None:
-    """Write histories, design.xlsx, panels of all iterations and the analysis that is delivered.
+    """Write histories, panels of all iterations and the analysis that is delivered.
     What is left behind the last is removed; edited workbooks of that stay in sizing/superseded."""
     one, given = Design.from_row(design), read_stage(settings, *ANALYSED)
     iterations = gather_iterations(json_paths, one.span, given, mesh_path)
-    more = list_versions(PACKAGES), *read_classes(*classes_paths)
-    report = make_design_report(iterations, one, given, *more, folded)
+    report = make_design_report(iterations, one, given, {}, *read_classes(*classes_paths), folded)
     write_rows(csv_path, HistoryRow, iterations.history)
     write_history(history_path, iterations.history, *report.judged)
-    write_design(design_path, report)
     write_final(*final_paths, iterations)
     remove_superseded(Path(csv_path).parent, len(json_paths))
 
@@ -53,7 +46,6 @@ if "snakemake" in globals():
             snakemake.input.classes,  # noqa: F821
             (files := snakemake.output).csv,  # noqa: F821
             files.history,
-            files.design,
             (files.final, files.arrays, files.panels),
             folded=snakemake.input.get("folded", ()),  # noqa: F821
             **snakemake.params,  # noqa: F821

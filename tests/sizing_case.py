@@ -53,7 +53,7 @@ def stage(name: str, **sizing: Any) -> dict[str, Any]:
     """Return the plain settings of a stage at their defaults; `sizing` replaces some of them."""
     values = stage_parameters(_settings(), name)
     known = {key: value for key, value in sizing.items() if key in values.get("sizing", {})}
-    return values | {"sizing": values["sizing"] | known}
+    return values | ({"sizing": values["sizing"] | known} if "sizing" in values else {})
 
 
 def given(name: str, **sizing: Any) -> StageSettings:

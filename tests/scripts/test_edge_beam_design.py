@@ -14,6 +14,7 @@ import mesh
 import resize
 import size
 import start
+from checked_case import write_design_workbook
 from foldshell.files.whole import read_arrays, read_json, write_arrays
 from foldshell.report.arrays import pack_arrays, unpack_arrays
 from foldshell.report.viewer_data import make_viewer_data
@@ -74,10 +75,10 @@ def folder(tmp_path_factory):
     group.main(shell, [files[0]], *classes, span_m=SPAN, classes=2, settings=settings)
     size.main(
         shell, [files[0]], classes, loop / "history.csv", loop / "history.xlsx",
-        folder / "design.xlsx",
         [loop / name for name in ("final.json", "final.npz", "iterations.npz")],
         design=DESIGN | SIZES, settings=stage("size"),
     )  # fmt: skip
+    write_design_workbook(folder, DESIGN | SIZES)
     return folder
 
 
@@ -115,7 +116,8 @@ def test_workbooks_and_summary_show_the_edge_beam(folder):
     words = dict(line[:2] for line in book["summary"].iter_rows(values_only=True))
     assert words["edge beam depth"] == BEAM[0]
     assert words["edge beam utilization max"] == pytest.approx(report["edge_beam_utilization_max"])
-    assert len(list(book["panels"].iter_rows())) == 2 + PANELS
+    rows = list(book["panels"].iter_rows(values_only=True))
+    assert [row[0] for row in rows[2 : 3 + PANELS]] == [*range(PANELS), None]
     line = make_summary_row(DESIGN | SIZES, folder)
     assert line.edge_beam_depth_m == BEAM[0]
     assert line.edge_beam_utilization_max == report["edge_beam_utilization_max"]

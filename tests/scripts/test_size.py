@@ -11,6 +11,7 @@ import group
 import resize
 import size
 import start
+from checked_case import write_design_workbook
 from foldshell.files.errors import InputError
 from foldshell.files.whole import read_arrays, read_json
 from sizing_case import DESIGN, PANELS, SPAN, STRIP, ZIGZAG, stage, write_small_mesh
@@ -54,7 +55,7 @@ def _size(folder, analyses, mesh=None):
         group.main(mesh, analyses, *classes, span_m=SPAN, classes=3, settings=stage("analyse"))
     size.main(
         folder.parent / "mesh.npz", analyses, classes,
-        folder / "history.csv", folder / "history.xlsx", folder.parent / "design.xlsx",
+        folder / "history.csv", folder / "history.xlsx",
         [folder / name for name in ("final.json", "final.npz", "iterations.npz")],
         design=DESIGN, settings=stage("size"),
     )  # fmt: skip
@@ -78,12 +79,14 @@ def test_loop_ends_and_is_gathered(loop):
         assert np.array_equal(panels["thickness"][number], arrays["thickness"])
         used = panels["utilization_panel_mean"][number]
         assert np.array_equal(used, arrays["utilization_panel_mean"])
+    write_design_workbook(folder.parent)
     book = openpyxl.load_workbook(folder.parent / "design.xlsx", read_only=True)
+    assert {"checks", "reactions", "combinations"} <= set(book.sheetnames)
     assert {"summary", "panels", "history", "loads", "notes"} <= set(book.sheetnames)
     rows = list(book["panels"].iter_rows(values_only=True))
     column = rows[0].index("class")
     written = read_arrays(folder / "classes.npz")["panel_class"]
-    assert [row[column] for row in rows[2:]] == written.tolist()
+    assert [row[column] for row in rows[2 : 2 + PANELS]] == written.tolist()
 
 
 def test_classes_cover_what_is_needed(loop):

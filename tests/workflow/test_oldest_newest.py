@@ -35,4 +35,4 @@ def test_both_ends_of_the_range_run_the_demo_to_equal_results(tmp_path):
     assert len(oldest) > 60
     other = {name.split("/", 2)[2] for name in oldest if oldest[name] != newest.get(name)}
     assert set(oldest) == set(newest)
-    assert other <= {"design.xlsx", "jobs/size.json", "manifest.json"}
+    assert other <= {"design.xlsx", "jobs/design_workbook.json", "manifest.json"}

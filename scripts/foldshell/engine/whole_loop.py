@@ -74,7 +74,6 @@ class LoopPlan:
             arrays=f"{self.folder}/final.npz",
             csv=f"{self.folder}/history.csv",
             history=f"{self.folder}/history.xlsx",
-            design=str(Path(self.folder).parent / "design.xlsx"),
             panels=f"{self.folder}/iterations.npz",
         )
         return self._task("size", inputs, files)

@@ -10,13 +10,14 @@ import numpy as np
 from foldshell.files.errors import InputError
 from foldshell.files.job_record import FOLDER
 from foldshell.files.whole import TEMPORARY_PREFIX, atomic_path
-from foldshell.records.analysis import AnalysisRecord, write_analysis
+from foldshell.records.analysis import AnalysisRecord, read_analysis, write_analysis
 from foldshell.records.analysis_arrays import AnalysisArrays, IterationsArrays
-from foldshell.records.arrays import write_typed_arrays
+from foldshell.records.arrays import read_typed_arrays, write_typed_arrays
 from foldshell.records.edits import keep_edited
 from foldshell.records.files import REMEDY
 from foldshell.records.history import HistoryRow
 from foldshell.records.iteration import read_iteration
+from foldshell.records.table import read_rows
 from foldshell.results.history import make_history
 from foldshell.settings.stage import StageSettings
 from foldshell.sizing.case import open_case
@@ -76,6 +77,23 @@ def gather_iterations(
         describe_delivered(analyses, final),
         fields,
     )
+
+
+def read_gathered(folder: str | Path, measure: str) -> Iterations:
+    """Return what `write_final` and the history of a loop hold, from its folder `sizing`.
+
+    Raises `InputError` for a file that is missing or damaged.
+    """
+    folder = Path(folder)
+    history = read_rows(folder / "history.csv", HistoryRow)
+    analyses = [read_analysis(folder / f"{row.iteration:02d}/analysis.json") for row in history]
+    final, arrays = read_iteration(folder / "final.json")
+    panels = read_typed_arrays(folder / "iterations.npz", IterationsArrays)
+    utilization = arrays.utilization(measure)
+    if utilization is None:
+        utilization = np.full(len(arrays.thickness), np.nan)
+    place = folder / "final.npz"
+    return Iterations(analyses, history, panels, place, arrays.thickness, utilization, final)
 
 
 def _stack_panels(arrays: Sequence[AnalysisArrays]) -> IterationsArrays:

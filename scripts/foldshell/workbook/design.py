@@ -5,10 +5,21 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+import numpy as np
+
 from foldshell.records.analysis import Criteria
+from foldshell.records.engineering import EngineeringArrays, EngineeringRecord
 from foldshell.records.history import HistoryRow
 from foldshell.settings.loads import LOAD_CASES, Combinations
 from foldshell.settings.stage import StageSettings, flatten
+from foldshell.workbook.engineering import (
+    add_checks,
+    add_combinations,
+    add_reactions,
+    list_groups,
+    list_panel_columns,
+    write_volume,
+)
 from foldshell.workbook.history import add_history_sheets
 from foldshell.workbook.panels import FloatArray, IntArray, PanelGrid
 from foldshell.workbook.styles import (
@@ -17,6 +28,7 @@ from foldshell.workbook.styles import (
     add_sheet,
     create_workbook,
     mark_above,
+    print_in_blocks,
     write_lines,
     write_value,
 )
@@ -47,6 +59,8 @@ class DesignReport:
     sources: Sequence[str] = ()
     utilization_max: float = 1.0
     measure: str = "panel_mean"
+    engineering: EngineeringRecord | None = None
+    engineering_arrays: EngineeringArrays | None = None
 
     @property
     def judged(self) -> tuple[Sequence[Line], float, str]:
@@ -55,11 +69,20 @@ class DesignReport:
 
 
 def write_design(path: str | Path, report: DesignReport) -> None:
-    """Write `design.xlsx`: sheets summary, panels, history, charts, loads and notes."""
+    """Write `design.xlsx`: sheets summary, panels, history, charts, loads and notes; with an
+    engineering verdict its checks, reactions and combinations as well."""
     with create_workbook(path, report.title) as (book, styles):
         _add_summary(book, styles, report)
+        engineering, limit = report.engineering, report.utilization_max
+        if engineering is not None:
+            add_checks(book, styles, engineering, f"{report.title}: engineering checks")
         _add_panels(book, styles, report)
-        limit = report.utilization_max
+        if engineering is not None:
+            add_reactions(book, styles, engineering, report.engineering_arrays)
+            own = {f"sizing loop, {name}": getattr(report.combinations, name)
+                   for name in ("strength", "deflection")}  # fmt: skip
+            groups = own | list_groups(engineering)
+            add_combinations(book, styles, groups, engineering.loads)
         add_history_sheets(book, styles, report.history, limit, report.measure)
         _add_loads(book, styles, report)
         add_notes(
@@ -99,9 +122,19 @@ def _add_panels(book: Any, styles: Styles, report: DesignReport) -> None:
     if report.thickness_class is not None:
         columns.append(Column("class", "-", "integer", 10.0))
         values.append(report.thickness_class)
+    if report.engineering is not None:
+        more = list_panel_columns(report.engineering)
+        known = {column.key for column in columns}
+        columns += [column for column, _ in more if column.key not in known]
+        values += [np.array(own) for column, own in more if column.key not in known]
     rows = list(zip(*(column.tolist() for column in values), strict=True))
-    sheet = add_sheet(book, "panels", landscape=False)
-    write_table(sheet, styles, 0, columns, rows)
+    wide = report.engineering is not None
+    sheet = add_sheet(book, "panels", landscape=wide)
+    first = write_table(sheet, styles, 0, columns, rows, upright=wide)
+    if report.engineering is not None:
+        names = [column.key for column in columns]
+        print_in_blocks(sheet, [9.0] * len(columns))
+        write_volume(sheet, styles, first, report.engineering, names)
     last = len(rows) + 1
     sheet.autofilter(1, 0, last, len(values) - 1)
     mark_above(sheet, styles, (2, place + 1, last, place + 1), report.utilization_max)

@@ -10,6 +10,7 @@ from foldshell.records.analysis import AnalysisRecord
 from foldshell.records.analysis_arrays import ClassesArrays
 from foldshell.records.classes import ClassesRecord
 from foldshell.records.design_row import DesignRow, make_design_row
+from foldshell.records.engineering import EngineeringArrays, EngineeringRecord
 from foldshell.records.entry import entries
 from foldshell.results.gather import Iterations
 from foldshell.results.history import collect_edited_panels
@@ -54,6 +55,8 @@ def make_design_report(
     grouped: ClassesRecord,
     grouped_arrays: ClassesArrays,
     folded: Paths = (),
+    engineering: EngineeringRecord | None = None,
+    engineering_arrays: EngineeringArrays | None = None,
 ) -> DesignReport:
     """Put the delivered analysis, the panels, the history and the settings together.
 
@@ -65,6 +68,7 @@ def make_design_report(
         verdict=[
             *_describe_design(design),
             *make_lines(last, ("verdict", "reason")),
+            *([] if engineering is None else describe_engineering(engineering)),
             Line("model warnings", last.warning or "none"),
             Line("iterations", len(iterations.analyses)),
             *_describe_delivered(last),
@@ -89,6 +93,8 @@ def make_design_report(
         sources=SOURCES,
         utilization_max=sizing.utilization_max,
         measure=sizing.measure,
+        engineering=engineering,
+        engineering_arrays=engineering_arrays,
     )
 
 
@@ -122,6 +128,25 @@ def _describe_delivered(final: AnalysisRecord) -> list[Line]:
 def _describe_load(name: str, value: Any) -> Line:
     pressure = name in ("superimposed_dead", "live", "wind")
     return Line(name.replace("_", " "), value, "kN/m2" if pressure else "")
+
+
+def describe_engineering(record: EngineeringRecord) -> list[Line]:
+    """Return the engineering verdict, and tension beside what the loop sized for."""
+    rankine = record.measures.get("rankine")
+    own = record.measures.get(record.loop_criterion)
+    lines = [
+        Line("engineering verdict", record.verdict, judged=True),
+        Line("engineering reason", record.reason),
+    ]
+    if own is None or rankine is None:
+        return lines
+    return [
+        *lines,
+        Line("utilization strip max", own.utilization_strip_max),
+        Line("Rankine, largest panel mean", rankine.utilization_panel_mean_max),
+        Line("Rankine, largest strip", rankine.utilization_strip_max),
+        Line("Rankine, panels above one", rankine.panels_above_one),
+    ]
 
 
 def describe_edits(analyses: Sequence[AnalysisRecord]) -> list[Line]:

@@ -1,6 +1,6 @@
 """Sheets of the engineering verdict: checks, panels, reactions, combinations, loads."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -8,12 +8,20 @@ import numpy as np
 
 from foldshell.records.engineering import (
     NO_LIMIT,
-    CombinationFactors,
     EngineeringArrays,
     EngineeringCheck,
     EngineeringRecord,
 )
-from foldshell.workbook.styles import Line, Styles, add_sheet, create_workbook, write_lines
+from foldshell.settings.field import Factors
+from foldshell.workbook.cells import name_column
+from foldshell.workbook.styles import (
+    Line,
+    Styles,
+    add_sheet,
+    create_workbook,
+    print_in_blocks,
+    write_lines,
+)
 from foldshell.workbook.tables import Column, write_table
 
 VERDICTS = {"passes": "good", "fails": "bad", "not_applicable": "plain"}
@@ -44,7 +52,7 @@ def write_engineering(
         add_checks(book, styles, record, f"Engineering checks of {title}")
         add_panels(book, styles, record)
         add_reactions(book, styles, record, arrays)
-        add_combinations(book, styles, record.combinations)
+        add_combinations(book, styles, list_groups(record), record.loads)
 
 
 def add_checks(book: Any, styles: Styles, record: EngineeringRecord, title: str) -> None:
@@ -92,8 +100,9 @@ def _add_measures(sheet: Any, styles: Styles, row: int, record: EngineeringRecor
     names = ("criterion", "utilization_panel_mean_max", "utilization_strip_max",
              "panels_above_one", "area_share_above_one")  # fmt: skip
     for column, name in enumerate(names):
-        sheet.write_string(row, column, name.replace("_", " "), styles["header"])
-    sheet.set_row(row, 42)
+        style = styles["header_number" if column else "header"]
+        sheet.write_string(row, column, name.replace("_", " "), style)
+    sheet.set_row(row, 58)
     for line, (name, one) in enumerate(record.measures.items(), start=row + 1):
         sheet.write_string(line, 0, name.replace("_", " "), styles["text"])
         for column, key in enumerate(names[1:], start=1):
@@ -129,6 +138,7 @@ def add_panels(book: Any, styles: Styles, record: EngineeringRecord) -> None:
     columns = list_panel_columns(record)
     rows = list(zip(*(values for _, values in columns), strict=True))
     first = write_table(sheet, styles, 0, [one for one, _ in columns], rows, upright=True)
+    print_in_blocks(sheet, [9.0] * len(columns))
     write_volume(sheet, styles, first, record, [one.key for one, _ in columns])
 
 
@@ -151,7 +161,7 @@ def write_volume(
 
 
 def _span(column: int, first: int, count: int) -> str:
-    letter = chr(ord("A") + column)
+    letter = name_column(column + 1)
     return f"{letter}{first + 1}:{letter}{first + count}"
 
 
@@ -215,18 +225,38 @@ def _write_force(
 
 
 def add_combinations(
-    book: Any, styles: Styles, combinations: CombinationFactors, name: str = "combinations"
+    book: Any,
+    styles: Styles,
+    groups: Mapping[str, Factors],
+    loads: Mapping[str, Sequence[float]],
 ) -> None:
-    """Add the sheet `combinations`: factors of load cases by combination and purpose."""
-    groups = vars(combinations)
-    cases = list(dict.fromkeys(
-        case for group in groups.values() for one in group.values() for case in one
-    ))  # fmt: skip
+    """Add the sheet `combinations`: resultants of load cases, then factors by combination and the
+    resultant of each as a formula of both.
+
+    `groups` are combinations by purpose, `loads` the resultant (3,) kN of each case.
+    """
+    cases = list(loads)
     columns = [Column("combination", "", "text", 14.0), Column("for", "", "text", 26.0)]
-    columns += [Column(case, "-", "general", 10.0) for case in cases]
-    rows = [
-        [key, purpose.replace("_", " "), *(factors.get(case) for case in cases)]
-        for purpose, group in groups.items()
-        for key, factors in group.items()
-    ]
-    write_table(add_sheet(book, name, landscape=False), styles, 0, columns, rows)
+    columns += [Column(case, "kN, then factors", "general", 15.0) for case in cases]
+    columns += [Column(f"F{axis}", "kN", "decimal", 13.0) for axis in "xyz"]
+    rows = [[f"F{axis}", "resultant of the case", *(loads[case][k] for case in cases)]
+            for k, axis in enumerate("xyz")]  # fmt: skip
+    listed = [(name, purpose, one) for purpose, group in groups.items()
+              for name, one in group.items()]  # fmt: skip
+    rows += [[name, purpose, *(one.get(case) for case in cases)] for name, purpose, one in listed]
+    blank = [[*row, None, None, None] for row in rows]
+    sheet = add_sheet(book, "combinations")
+    first = write_table(sheet, styles, 0, columns, blank)
+    ends = name_column(3), name_column(2 + len(cases))
+    for row, (_, _, one) in enumerate(listed, start=first + 3):
+        own = f"{ends[0]}{row + 1}:{ends[1]}{row + 1}"
+        for k in range(3):
+            case = f"{ends[0]}${first + k + 1}:{ends[1]}${first + k + 1}"
+            value = sum(factor * loads[name][k] for name, factor in one.items())
+            formula = f"=SUMPRODUCT({own},{case})"
+            sheet.write_formula(row, 2 + len(cases) + k, formula, styles["decimal"], value)
+
+
+def list_groups(record: EngineeringRecord) -> dict[str, Factors]:
+    """Return the combinations of the engineering verdict by purpose, in words."""
+    return {name.replace("_", " "): group for name, group in vars(record.combinations).items()}

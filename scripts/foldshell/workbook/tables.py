@@ -31,19 +31,22 @@ _WIDTHS = {
     "design": 34.0,
     "tags": 36.0,
     "reason": 50.0,
+    "engineering_reason": 50.0,
+    "engineering": 14.0,
     "model_warnings": 50.0,
     "settings_hash": 14.0,
     "state": 24.0,
     "verdict": 24.0,
 }
 """Of texts whose length is known; others have 11 characters."""
+WRAPPED = ("reason", "model_warnings", "engineering_reason")
 
 
 def make_column(about: Entry) -> Column:
     """Return the column of a field: header, unit and format come from its record."""
     width = max(10.0, min(18.0, 1.1 * len(about.key) + 2.0))
     if strip_null(about.type) not in (int, float):
-        style = "wrap" if about.key in ("reason", "model_warnings") else "text"
+        style = "wrap" if about.key in WRAPPED else "text"
         return Column(about.key, "", style, _WIDTHS.get(about.key, 11.0))
     unit = "-" if about.unit == COUNT else about.unit
     if about.form:
@@ -80,7 +83,7 @@ def write_table(
     """Write header, units and rows of cells from a row on; return the first row of values.
 
     `upright` turns the headers of numbers, so that a wide table fits a page. Endings in the
-    columns `state`, `verdict` and `crosscheck` are coloured by what they say.
+    columns that are judged are coloured by what they say.
     """
     heads = [(column.key, column.unit, column.style, column.width) for column in columns]
     write_header(sheet, styles, row, heads, upright)
