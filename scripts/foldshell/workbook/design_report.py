@@ -65,20 +65,7 @@ def make_design_report(
     last, sizing = iterations.final, settings.sizing
     return DesignReport(
         title=f"Design {design.name}",
-        verdict=[
-            *_describe_design(design),
-            *make_lines(last, ("verdict", "reason")),
-            *([] if engineering is None else describe_engineering(engineering)),
-            Line("model warnings", last.warning or "none"),
-            Line("iterations", len(iterations.analyses)),
-            *_describe_delivered(last),
-            *describe_edits(iterations.analyses),
-            *make_lines(last, HEADLINES),
-            Line("least buckling factor", last.least_factor),
-            Line("its combination", last.least_factor_combination),
-            *_summarise_classes(grouped),
-            Line("settings hash", last.settings_hash),
-        ],
+        verdict=_list_verdict(iterations, design, grouped, engineering),
         criteria=last.criteria,
         grid=choose_panels(design.zigzag, design.strip, folded),
         thickness=iterations.thickness,
@@ -96,6 +83,29 @@ def make_design_report(
         engineering=engineering,
         engineering_arrays=engineering_arrays,
     )
+
+
+def _list_verdict(
+    iterations: Iterations,
+    design: Design,
+    grouped: ClassesRecord,
+    engineering: EngineeringRecord | None,
+) -> list[Line]:
+    last = iterations.final
+    return [
+        *_describe_design(design),
+        *make_lines(last, ("verdict", "reason")),
+        *([] if engineering is None else describe_engineering(engineering)),
+        Line("model warnings", last.warning or "none"),
+        Line("iterations", len(iterations.analyses)),
+        *_describe_delivered(last),
+        *describe_edits(iterations.analyses),
+        *make_lines(last, HEADLINES),
+        Line("least buckling factor", last.least_factor),
+        Line("its combination", last.least_factor_combination),
+        *_summarise_classes(grouped),
+        Line("settings hash", last.settings_hash),
+    ]
 
 
 def _describe_design(design: Design) -> list[Line]:
