@@ -33,7 +33,7 @@ def main(
 ) -> None:
     """Write mesh_convergence.json and crosscheck/primary.json; the reason for a mechanism."""
     given, report = read_stage(settings, *LOADED, Crosscheck), read_analysis(report_path)
-    chosen = choose_combinations(given.crosscheck, given.combinations, report)
+    chosen = choose_combinations(given.crosscheck, given.combinations, report, given.loads)
     study = study_mesh(
         read_checked_arrays(folded_path, FoldedArrays),
         from_plain(support),

@@ -29,7 +29,7 @@ def main(
     thickness = read_typed_arrays(final_path, AnalysisArrays).thickness
     given = read_stage(settings, *LOADED, Crosscheck)
     report = read_analysis(report_path)
-    compared = choose_combinations(given.crosscheck, given.combinations, report)
+    compared = choose_combinations(given.crosscheck, given.combinations, report, given.loads)
     model = make_neutral_model(design, mesh, thickness, given, compared, find_limits(report))
     write_json(model_path, model)
 

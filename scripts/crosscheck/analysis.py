@@ -65,10 +65,21 @@ def analyse_model(
         raise MechanismError(
             "model: supports: these let the shell move: allowed are such as hold it"
         ) from None
-    loads = compute_surface_loads(model, grid.axes[:, 2])
-    surface = combine_cases(loads, model.compared_combinations)
-    forces = distribute_loads(grid, surface)
+    surface, forces = find_loads(model, grid)
     return Analysis(model, system, surface, forces, solve(system, forces))
+
+
+def find_loads(model: Model, grid: Discretisation) -> tuple[np.ndarray, np.ndarray]:
+    """Mean load of each combination on facets (F, 3, k) kN/m2, forces on their nodes (F, R, 3, k)
+    kN."""
+    chosen = model.compared_combinations
+    if not model.own_loads:
+        surface = combine_cases(compute_surface_loads(model, grid.axes[:, 2]), chosen)
+        return surface, distribute_loads(grid, surface)
+    from crosscheck.own_forces import distribute_own_loads
+
+    mean, forces = distribute_own_loads(model, grid)
+    return combine_cases(mean, chosen, model.cases), combine_cases(forces, chosen, model.cases)
 
 
 def _choose_solver(solver: str) -> tuple[Callable, Callable]:

@@ -4,7 +4,7 @@ Tsiamis, Oliva, Calvano (2018), Table 2: self-weight; a superimposed dead load l
 live load and wind along global axes, half of the wind acting on the sheet.
 """
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 
@@ -34,13 +34,15 @@ def compute_surface_loads(model: Model, normal: np.ndarray) -> np.ndarray:
 
 
 def combine_cases(
-    surface: np.ndarray, combinations: Mapping[str, Mapping[str, float]]
+    surface: np.ndarray,
+    combinations: Mapping[str, Mapping[str, float]],
+    cases: Sequence[str] = CASES,
 ) -> np.ndarray:
     """Sum of factor times load for each combination: (F, 3, k).
 
-    Loads of the cases are (F, 3, 5) at the vertices; kN/m2 in and out.
+    Loads of the cases are (F, 3, C), or (F, R, 3, C) forces at nodes; units stay.
     """
-    factor = [[factors.get(case, 0.0) for factors in combinations.values()] for case in CASES]
+    factor = [[factors.get(case, 0.0) for factors in combinations.values()] for case in cases]
     return surface @ np.array(factor)
 
 

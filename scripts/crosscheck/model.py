@@ -6,13 +6,14 @@ from typing import Any
 
 import numpy as np
 
+from crosscheck.own_loads import OwnLoad, list_own_cases, read_own_loads
 from crosscheck.reading import Place, read_json
 from crosscheck.supports import Support, read_pins, read_supports
 
-FORMATS = tuple(f"foldshell-neutral-model {number}" for number in (1, 2, 3))
+FORMATS = tuple(f"foldshell-neutral-model {number}" for number in (1, 2, 3, 4))
 """The second may name panels that carry their own weight only; the third names its supports, which
 may hold single directions, clamp edges and be springs, may compare several combinations of a kind,
-and says what the criteria allow."""
+and says what the criteria allow; the fourth lists its loads one by one."""
 CASES = ("SW", "SDL", "LL", "WX", "WY")
 FORMER_AREAS = {"mesh": "sheet", "plan": "plan_abs"}
 """Words of older model files."""
@@ -57,13 +58,19 @@ class Model:
     panel_thickness: np.ndarray  # (P,) m
     supports: tuple[Support, ...]
     material: Material
-    loads: Loads
+    loads: Loads | None  # the paper's
     combinations: dict[str, dict[str, float]]
     compared: dict[str, list[str]]  # strength and deflection: combinations of each
     self_weight_only_panels: np.ndarray = field(
         default_factory=lambda: np.empty(0, int)
     )  # own weight only
     limits: dict[str, float] = field(default_factory=dict)  # LIMITS, those that are known
+    own_loads: tuple[OwnLoad, ...] = ()  # in place of the paper's, where there are any
+
+    @property
+    def cases(self) -> tuple[str, ...]:
+        """Names of the load cases."""
+        return list_own_cases(self.own_loads) if self.own_loads else CASES
 
     @property
     def thickness(self) -> np.ndarray:
@@ -96,11 +103,15 @@ def read_model(path: str | Path) -> Model:
     thickness = root.key("panel_thickness_m").numbers(None, above=0.0)
     panel = root.key("facet_panel").indices(None, len(thickness))
     _check_facets(root, vertices, facets, panel, len(thickness))
-    if format_name == FORMATS[-1]:
+    if format_name in FORMATS[2:]:
         supports = read_supports(root, facets, len(vertices))
     else:
         supports = read_pins(root.key("supported_edges"), facets, len(vertices))
-    combinations = _read_combinations(root.key("combinations"))
+    own_loads: tuple[OwnLoad, ...] = ()
+    if format_name == FORMATS[3]:
+        own_loads = read_own_loads(root.key("load_cases"), len(thickness))
+    cases = list_own_cases(own_loads) if own_loads else CASES
+    combinations = _read_combinations(root.key("combinations"), cases)
     compared = {
         kind: _read_compared(root.key("compare").key(kind), format_name, list(combinations))
         for kind in KINDS
@@ -113,16 +124,17 @@ def read_model(path: str | Path) -> Model:
         panel_thickness=thickness,
         supports=supports,
         material=_read_material(root.key("material")),
-        loads=_read_loads(root),
+        loads=None if own_loads else _read_loads(root),
         combinations=combinations,
         compared=compared,
         self_weight_only_panels=_read_self_weight_only_panels(root, format_name, len(thickness)),
         limits=_read_limits(root.key("limits", {})),
+        own_loads=own_loads,
     )
 
 
 def _read_self_weight_only_panels(root: Place, format_name: str, panels: int) -> np.ndarray:
-    unsaid = format_name == FORMATS[2] and "self_weight_only_panels" not in root.names()
+    unsaid = format_name in FORMATS[2:] and "self_weight_only_panels" not in root.names()
     if format_name == FORMATS[0] or unsaid:
         return np.empty(0, dtype=int)
     return root.key("self_weight_only_panels").indices(None, panels)
@@ -148,7 +160,7 @@ def _check_facets(
 
 def _read_compared(place: Place, format_name: str, names: list[str]) -> list[str]:
     """One combination, or from format 3 on a list of them."""
-    if format_name != FORMATS[-1]:
+    if format_name not in FORMATS[2:]:
         return [place.one_of(names)]
     return list(dict.fromkeys(entry.one_of(names) for entry in place.entries()))
 
@@ -185,13 +197,13 @@ def _read_loads(root: Place) -> Loads:
     )
 
 
-def _read_combinations(place: Place) -> dict[str, dict[str, float]]:
+def _read_combinations(place: Place, cases: tuple[str, ...]) -> dict[str, dict[str, float]]:
     result: dict[str, dict[str, Any]] = {}
     for name in place.names():
         factors = place.key(name)
         for case in factors.names():
-            if case not in CASES:
-                factors.refuse(case, "one of the load cases " + ", ".join(CASES))
+            if case not in cases:
+                factors.refuse(case, "one of the load cases " + ", ".join(cases))
         result[name] = {case: factors.key(case).number() for case in factors.names()}
     if not result:
         place.refuse("nothing", "at least one combination")

@@ -52,7 +52,7 @@ def open_opensees() -> Any:
 def divide_facets(model: Model, subdivisions: int) -> ShellGrid:
     """Divide each facet into n x n triangles, loaded a third at each corner, as uniform loads are.
 
-    The loads are those of the compared combinations.
+    The loads are those of the compared combinations; what varies over a facet is taken by its mean.
     """
     if not all(support.is_pin for support in model.supports):
         raise CrosscheckError(
@@ -72,10 +72,8 @@ def divide_facets(model: Model, subdivisions: int) -> ShellGrid:
     a, b, c = (model.vertices[facets[:, k]] for k in range(3))
     normal = np.cross(b - a, c - a)
     area = np.linalg.norm(normal, axis=1) / 2
-    surface = compute_surface_loads(model, normal / (2 * area[:, None]))
-    share = (
-        combine_cases(surface, model.compared_combinations) * (area / (3 * n * n))[:, None, None]
-    )
+    surface = _find_surface(model, normal / (2 * area[:, None]))
+    share = surface * (area / (3 * n * n))[:, None, None]
     forces = np.zeros((len(nodes), *share.shape[1:]))
     for corner in range(3):
         np.add.at(forces, elements[:, :, corner], share[:, None])
@@ -88,6 +86,16 @@ def divide_facets(model: Model, subdivisions: int) -> ShellGrid:
         model.material.youngs_modulus,
         model.material.poissons_ratio,
     )
+
+
+def _find_surface(model: Model, normal: np.ndarray) -> np.ndarray:
+    """Mean load of each compared combination on each facet: (F, 3, k) kN/m2."""
+    chosen = model.compared_combinations
+    if not model.own_loads:
+        return combine_cases(compute_surface_loads(model, normal), chosen)
+    from crosscheck.own_forces import mean_own_loads
+
+    return combine_cases(mean_own_loads(model), chosen, model.cases)
 
 
 def _list_triangles(lattice: np.ndarray) -> np.ndarray:

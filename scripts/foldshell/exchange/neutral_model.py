@@ -5,12 +5,17 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from foldshell.files.whole import Json
+from foldshell.loads.cases import SETTLEMENT, TEMPERATURE, SurfaceLoad, make_load_cases
+from foldshell.loads.words import unit_of
 from foldshell.settings.loads import Loads
 from foldshell.settings.material import Material
 from foldshell.settings.stage import StageSettings
 from foldshell.settings.support_row import AXES
 from foldshell.shell.boundary import Hold
 from foldshell.shell.held_supports import list_holds
+
+OWN_LOADS = "foldshell-neutral-model 4"
+"""Format 3 with `load_cases` in place of the paper's five."""
 
 FORMAT = "foldshell-neutral-model 3"
 """Format 2 (`self_weight_only_panels`) with named supports, lists of combinations that are
@@ -45,7 +50,7 @@ def make_neutral_model(
     sized = len(panel_thickness)
     edge_beam_panels = list(range(sized, sized + len(fixed)))
     return {
-        "format": FORMAT,
+        "format": OWN_LOADS if has_own_loads(settings) else FORMAT,
         "design": design,
         "vertices_m": mesh["vertices"].tolist(),
         "facets": mesh["facets"].tolist(),
@@ -54,12 +59,65 @@ def make_neutral_model(
         **({"self_weight_only_panels": edge_beam_panels} if edge_beam_panels else {}),
         "supports": [_describe_support(name, hold) for name, hold in list_holds(mesh).items()],
         "material": _describe_material(settings.material),
-        "loads_kn_m2": _describe_loads(settings.loads),
-        "area_basis": settings.loads.area_basis,
-        "combinations": settings.combinations.all,
+        **_describe_all_loads(settings),
         "compare": {kind: list(names) for kind, names in compared.items()},
         "limits": dict(limits),
     }
+
+
+def has_own_loads(settings: StageSettings) -> bool:
+    """Whether loads are not the paper's five cases as they stand in format 3."""
+    return bool(settings.loads.rows) or settings.loads.sdl_direction == "vertical"
+
+
+def _describe_all_loads(settings: StageSettings) -> Json:
+    """Return loads and combinations; what strains and settles is left out with its combinations."""
+    if not has_own_loads(settings):
+        return {
+            "loads_kn_m2": _describe_loads(settings.loads),
+            "area_basis": settings.loads.area_basis,
+            "combinations": settings.combinations.all,
+        }
+    cases = make_load_cases(settings.loads, settings.material.unit_weight)
+    left = {one.case for one in cases if one.kind in (TEMPERATURE, SETTLEMENT)}
+    return {
+        "load_cases": [describe_own_load(one) for one in cases if one.case not in left],
+        "combinations": {
+            name: factors
+            for name, factors in settings.combinations.all.items()
+            if not left & factors.keys()
+        },
+    }
+
+
+def describe_own_load(load: SurfaceLoad) -> Json:
+    """Return a load as plain data in kN and m."""
+    zone, found = load.zone, {}
+    if zone.kind == "region":
+        found = {"polygon_m": [list(corner) for corner in zone.region.corners]}
+    elif zone.kind == "side":
+        found = {"side": zone.side}
+    elif zone.kind == "panels":
+        numbers = [range(first, last + 1) for first, last in zone.panels]
+        found = {"panels": sorted({number for part in numbers for number in part})}
+    elif zone.points:
+        found = {"points_m": [list(point) for point in zone.points]}
+    plain: Json = {
+        "case": load.case,
+        "kind": load.kind,
+        "value": load.value,
+        "unit": unit_of(load),
+        "direction": "against_normal" if load.direction is None else list(load.direction),
+        "area": load.area,
+        "zone": found,
+    }
+    if load.variation is not None:
+        plain["variation"] = {
+            "axis": "xyz"[load.variation.axis],
+            "places_m": list(load.variation.places),
+            "factors": list(load.variation.factors),
+        }
+    return plain
 
 
 def _describe_support(name: str, hold: Hold) -> Json:

@@ -6,6 +6,7 @@ from typing import Any
 from foldshell.records.entry import COUNT, entries, entry
 from foldshell.settings.design import NONE, SILENT_AT_ZERO, DesignColumns, Row
 from foldshell.settings.field import list_settings
+from foldshell.settings.load_table import PAPER
 
 _KNOWN = {known.key: known for known in list_settings(DesignColumns).values()}
 
@@ -41,6 +42,7 @@ class DesignRow:
     strip_grading: float | None = _column("strip_grading", form="general", default=None)
     folded: str | None = _column("folded", default=None)
     file_unit: str | None = _column("file_unit", default=None)
+    loads: str | None = _column("loads", default=None)
 
     @property
     def panels(self) -> int:
@@ -50,8 +52,9 @@ class DesignRow:
 
 def make_design_row(columns: Row) -> DesignRow:
     """Return the row of plain columns; what is none at 0 becomes None there, and so does a file
-    that there is none of."""
+    that there is none of, and loads that are the paper's."""
     known = {key: columns[key] for key in entries(DesignRow) if key in columns}
     sizes = ("edge_beam_depth_m", "edge_beam_thickness_m", *SILENT_AT_ZERO)
-    none = {key: None for key in ("folded", "file_unit") if columns.get(key) in (NONE, "m")}
+    plain = {"folded": NONE, "file_unit": "m", "loads": PAPER}
+    none = {key: None for key, value in plain.items() if columns.get(key) == value}
     return DesignRow(**known | {key: columns.get(key) or None for key in sizes} | none)

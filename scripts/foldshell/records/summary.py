@@ -109,3 +109,4 @@ class SummaryRow:
         "reinforcement by area of the sheet; empty without a design of it", "kg/m2",
         "reinforcement", default=None,
     )  # fmt: skip
+    loads: str | None = _design("loads")

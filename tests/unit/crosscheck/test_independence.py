@@ -4,7 +4,7 @@ import ast
 from pathlib import Path
 
 SCRIPTS = Path(__file__).parents[3] / "scripts"
-ALLOWED = {"crosscheck", "numpy", "scipy", "xlsxwriter", "openseespy"}
+ALLOWED = {"crosscheck", "numpy", "scipy", "xlsxwriter", "openseespy", "shapely"}
 
 
 def find_imports(path: Path) -> set[str]:

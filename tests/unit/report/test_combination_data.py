@@ -22,8 +22,9 @@ from unit.results.test_reactions import analysed
 def test_loads_of_panels_add_up_to_the_resultants(tmp_path):
     """Every case, every direction: to 1e-12 of the largest."""
     state, given, _ = analysed(tmp_path)
-    found = find_reactions(view_design(state, given, 5.0, "miura"), given)
-    panels = sum_cases(state, given)
+    view = view_design(state, given, 5.0, "miura")
+    found = find_reactions(view, given)
+    panels = sum_cases(state, given, view.operators)
     assert panels.shape == (len(found.cases), PANELS, 3)
     assert pytest.approx(found.resultant, abs=1e-9) == panels.sum(axis=1).T
 
