@@ -32,6 +32,12 @@ def of_design(*columns):
     }
 
 
+def sides(wildcards):
+    """Return the sides (m) of a design's rectangular plan along x and y, none of a square."""
+    design = BY_NAME[wildcards.design]
+    return list(design.sides) if design.span_x else []
+
+
 def holding(wildcards):
     """Return the supports of a design: a word, or the rows of the set that it names."""
     return BY_NAME[wildcards.design].holding

@@ -19,6 +19,7 @@ rule fold:
         **needs_of("fold"),
     params:
         **of_design("surface", "span_m", "height_m", "fold_mode", "file_unit"),
+        sides=sides,
         settings=of_stage("fold"),
     message:
         "{wildcards.design}: folding onto the target surface"

@@ -1,5 +1,6 @@
 """Rule fold: fold a crease pattern onto its target surface."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from foldshell.engine.job import run_job
@@ -8,10 +9,9 @@ from foldshell.folding.files import write_folded, write_folded_vtu, write_qualit
 from foldshell.folding.fold import fold_sheet
 from foldshell.folding.fold_panels import fold_panels
 from foldshell.folding.panel_files import write_panels
-from foldshell.folding.targets import make_target
+from foldshell.folding.targets import find_target
 from foldshell.pattern.fold_format import read_fold
 from foldshell.pattern.panel_fold_format import is_panel_fold, read_panel_fold
-from foldshell.settings.design import NONE
 from foldshell.settings.fold import Fold
 from foldshell.settings.stage import Plain, read_stage
 
@@ -28,6 +28,7 @@ def main(
     height_m: float,
     fold_mode: str,
     file_unit: str = "m",
+    sides: Sequence[float] = (),
     settings: Plain,
 ) -> None:
     """Read crease_pattern.fold; write folded.npz, folded.vtu and quality.json.
@@ -36,7 +37,7 @@ def main(
     """
     chosen = read_stage(settings, Fold).fold
     with named_errors(design):
-        target = None if surface == NONE else make_target(surface, span_m, height_m, file_unit)
+        target = find_target(surface, span_m, height_m, file_unit, sides)
         if is_panel_fold(fold_path):
             panels = fold_panels(read_panel_fold(fold_path)[0], target, fold_mode, chosen)
             return write_panels(folded_path, vtu_path, quality_path, panels)

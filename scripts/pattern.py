@@ -1,10 +1,11 @@
 """Rule pattern: the crease pattern of a design, sized for its target, as a FOLD file."""
 
+from collections.abc import Sequence
 from pathlib import Path
 
 from foldshell.engine.job import run_job
 from foldshell.files.errors import named_errors
-from foldshell.folding.targets import make_target, measure_turning
+from foldshell.folding.targets import find_target, measure_turning
 from foldshell.pattern.design import design_sheet
 from foldshell.pattern.drawings import draw_pattern, write_drawings
 from foldshell.pattern.fold_format import write_fold
@@ -27,19 +28,19 @@ def main(
     sector_angle_deg: float,
     folded: str = NONE,
     file_unit: str = "m",
+    sides: Sequence[float] = (),
     dxf_path: str | Path | None = None,
     svg_path: str | Path | None = None,
     settings: Plain,
     **form: float,
 ) -> None:
-    """Write crease_pattern.fold: flat pattern, rest state and some folded states [m]; a sheet that
-    is folded already as it stands. `form`: rest fold angle, grading, number of folded states."""
+    """Write crease_pattern.fold: flat, rest and folded states [m]; a folded sheet as it stands."""
     style = read_stage(settings, Drawings).drawings
     with named_errors(design):
-        target = None if folded != NONE else make_target(surface, span_m, height_m, file_unit)
+        target = find_target(surface, span_m, height_m, file_unit, sides)
         if pattern not in GRID_PATTERNS:
-            given = (zigzag, strip), sector_angle_deg
-            mesh = make_panels(pattern, folded, file_unit, target, *given)
+            counts = zigzag, strip
+            mesh = make_panels(pattern, folded, file_unit, target, counts, sector_angle_deg)
             return write_panel_pattern(mesh, fold_path, dxf_path, svg_path, design, style)
         lengths, form["turning"] = target.section_lengths(), measure_turning(target)
         sheet = design_sheet(pattern, lengths, zigzag, strip, sector_angle_deg, **form)

@@ -74,11 +74,14 @@ class Support:
 
 @dataclass(frozen=True)
 class Target:
-    """The surface that the design was folded onto: its name or file, span and height in m."""
+    """The surface that the design was folded onto: its name or file, span and height in m, the
+    unit of its file, and the sides (m) of a rectangular plan."""
 
     surface: str
     span: float
     height: float
+    file_unit: str = "m"
+    sides: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)

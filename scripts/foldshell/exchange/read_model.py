@@ -59,7 +59,7 @@ def read_export_model(
         flat=folded.flat,
         flat_facets=folded.facets,
         flat_note=_flat_note(design["fold_mode"]),
-        target=Target(design["surface"], design["span_m"], design["height_m"]),
+        target=_make_target(design),
         verdict=report.verdict,
         facts={key: plain[key] for key in _SCALARS if key in plain},
     )
@@ -103,6 +103,17 @@ def _make_supports(mesh: MeshArrays) -> tuple[Support, ...]:
             hold.clamp,
         )
         for name, hold in list_holds(list_arrays(mesh)).items()
+    )
+
+
+def _make_target(design: Row) -> Target:
+    sides = (design.get("span_x_m", 0), design.get("span_y_m", 0))
+    return Target(
+        design["surface"],
+        design["span_m"],
+        design["height_m"],
+        design.get("file_unit", "m"),
+        sides if all(sides) else (),
     )
 
 

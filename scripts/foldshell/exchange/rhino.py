@@ -17,6 +17,7 @@ from foldshell.files.errors import InputError
 from foldshell.files.whole import atomic_path, hash_data
 from foldshell.folding.quadric import Quadric
 from foldshell.folding.targets import make_target
+from foldshell.settings.design import NONE
 
 GAP, ARROW = 0.15, 0.04
 """Between roof and flat pattern, and length of an arrow of 1 kN/m2: parts of the design's size."""
@@ -201,7 +202,10 @@ def _add_loads(scene: _Scene, model: ExportModel) -> None:
 
 def _add_target(scene: _Scene, model: ExportModel) -> None:
     target = model.target
-    surface = make_target(target.surface, target.span, target.height)
+    if target.surface == NONE:
+        return
+    given = target.surface, target.span, target.height, target.file_unit
+    surface = make_target(*given, target.sides)
     attributes = scene.attributes("TARGET", f"target {Path(target.surface).stem}")
     if isinstance(surface, Quadric):
         scene.file.Objects.AddSurface(_quadric_patch(scene.rhino, surface), attributes)
@@ -217,17 +221,21 @@ def _add_target(scene: _Scene, model: ExportModel) -> None:
 def _quadric_patch(rhino, surface: Quadric):
     """Return the exact Bezier patch: heights at its nine points are those of the polar form, where
     x^2 becomes a^2, -a^2, a^2 on x = -a, 0, a."""
-    half = surface.span / 2
+    places, squares = [], []
     patch = rhino.NurbsSurface.Create(3, False, 3, 3, 3, 3)
-    for knots in (patch.KnotsU, patch.KnotsV):
+    for knots, side in zip((patch.KnotsU, patch.KnotsV), surface.sides, strict=True):
+        half = side / 2
         for k, value in enumerate((-half, -half, half, half)):
             knots[k] = value
-    place, square = (-half, 0.0, half), (half**2, -(half**2), half**2)
+        places.append((-half, 0.0, half))
+        squares.append((half**2, -(half**2), half**2))
     for i in range(3):
         for j in range(3):
-            height = surface.apex + surface.along_x * square[i] + surface.along_y * square[j]
-            height += surface.twist * place[i] * place[j]
-            patch.Points[i, j] = rhino.Point4d(place[i], place[j], height, 1.0)
+            height = (
+                surface.apex + surface.along_x * squares[0][i] + surface.along_y * squares[1][j]
+            )
+            height += surface.twist * places[0][i] * places[1][j]
+            patch.Points[i, j] = rhino.Point4d(places[0][i], places[1][j], height, 1.0)
     return patch
 
 

@@ -61,8 +61,9 @@ def fold_sheet(sheet: Sheet, target: Target, mode: str, settings: Fold) -> FoldR
         distances = measure_distances(shape.vertices, target)
     folded = sheet.kind not in LAYOUTS
     quality = measure_quality(
-        shape.vertices, sheet.grid, shape.flat, distances[attracted], target.span, folded
-    )
+        shape.vertices, sheet.grid, shape.flat, distances[attracted], target.span, folded,
+        target.sides,
+    )  # fmt: skip
     start_coverage = measure_start_coverage(sheet, target, settings.attract) if folded else 0.0
     least = settings.limits.plan_coverage * start_coverage
     state, reason = judge_shape(shape, quality, allowed_rms(settings.limits, mode), least, mode)

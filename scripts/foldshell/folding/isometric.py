@@ -88,7 +88,7 @@ def fold_isometrically(sheet: Sheet, target: Target, settings: Fold) -> Shape:
     Folds are held on their own side with the weight of the lengths, so that a target that
     cannot be reached leaves a distance rather than a crumpled sheet.
     """
-    steep = target.height >= STEEP * target.span
+    steep = target.height >= STEEP * min(target.sides)
     least = settings.limits.plan_coverage * measure_start_coverage(sheet, target, settings.attract)
     attempts: list[Attempt] = []
     for start in list_sheets(sheet, target, settings.attract) if steep else [sheet]:
@@ -136,7 +136,7 @@ def measure_twist(target: Target) -> float:
 
     Positive where the corners at x = y are the high ones.
     """
-    half = target.span / 2
+    half = np.array(target.sides)[:, None] / 2
     x, y = half * np.array([[1, -1, 1, -1], [1, -1, -1, 1]])
     return float(target.evaluate_height(x, y) @ [1, 1, -1, -1]) / (2 * target.height)
 
@@ -225,7 +225,7 @@ def _is_crumpled(vertices: np.ndarray, sheet: Sheet, target: Target, least: floa
     grid = sheet.grid
     return (
         count_flipped(measure_folds(vertices, grid), grid) > 0
-        or measure_coverage(vertices, grid.facets, target.span) < least
+        or measure_coverage(vertices, grid.facets, target.sides) < least
         or len(find_intersections(vertices, grid.facets)) > 0
     )
 
@@ -233,7 +233,7 @@ def _is_crumpled(vertices: np.ndarray, sheet: Sheet, target: Target, least: floa
 def _lay_planar(sheet: Sheet, target: Target) -> np.ndarray:
     """Rest state, centred on the plan at the mean height of the target."""
     centred = sheet.placement - 0.5 * (sheet.placement.min(axis=0) + sheet.placement.max(axis=0))
-    inside = np.clip(centred[:, :2], -target.span / 2, target.span / 2)
+    inside = np.clip(centred[:, :2], -np.array(target.sides) / 2, np.array(target.sides) / 2)
     height = target.evaluate_height(*inside.T).mean()
     return centred + np.array([0.0, 0.0, height])
 

@@ -28,6 +28,12 @@ class MeshTarget:
     vertices: np.ndarray
     triangles: np.ndarray
     origin: tuple[float, float, float] = (0.0, 0.0, 0.0)
+    rectangle: tuple[float, float] | None = None
+
+    @property
+    def sides(self) -> tuple[float, float]:
+        """Sides of the plan along x and y [m]."""
+        return self.rectangle or (self.span, self.span)
 
     @property
     def height(self) -> float:
@@ -119,10 +125,11 @@ class MeshTarget:
 
     @cached_property
     def _sections(self) -> tuple[tuple[np.ndarray, np.ndarray], ...]:
-        along = np.linspace(-self.span / 2, self.span / 2, SAMPLES)
         zero = np.zeros(SAMPLES)
         sections = []
-        for x, y in ((along, zero), (zero, along)):
+        for axis, side in enumerate(self.sides):
+            along = np.linspace(-side / 2, side / 2, SAMPLES)
+            x, y = (zero, along) if axis else (along, zero)
             steps = np.hypot(np.diff(along), np.diff(self.evaluate_height(x, y)))
             arc = np.concatenate([[0.0], np.cumsum(steps)])
             sections.append((along, arc - arc[SAMPLES // 2]))
@@ -184,12 +191,19 @@ def _find_weights(corners: np.ndarray, points: np.ndarray) -> np.ndarray:
     return np.column_stack([1 - second - third, second, third])
 
 
-def read_mesh_target(path: str | Path, span: float, file_unit: str = "m") -> MeshTarget:
+def read_mesh_target(
+    path: str | Path,
+    span: float,
+    file_unit: str = "m",
+    sides: tuple[float, float] | None = None,
+) -> MeshTarget:
     """Read a target surface from a mesh file; `origin` says where the middle of its plan stands.
 
     Raises InputError for a file that cannot be read, and for a surface that is closed, folded
     over in plan, with holes or gaps in the plan, or of another scale than the span.
     """
-    surface = read_surface(path, span, file_unit)
+    surface = read_surface(path, span, file_unit, sides)
     origin = (*surface.middle, 0.0)
-    return MeshTarget(Path(path).stem, span, surface.vertices - origin, surface.triangles, origin)
+    found = surface.vertices - origin
+    longest = max(sides or (span,))
+    return MeshTarget(Path(path).stem, longest, found, surface.triangles, origin, sides)

@@ -54,7 +54,7 @@ def build_terms(sheet: Sheet, target: Target, attract: str, weights: FoldWeights
     hinges = find_hinges(grid.facets, grid.edges)
     neutral = grid.assignments[hinges.edges] == "F"
     rest = measure_hinges(sheet.rest, hinges.vertices)
-    steep = target.height >= STEEP * target.span
+    steep = target.height >= STEEP * min(target.sides)
     crease_weight = weights.hinge_steep if steep else weights.hinge
     neutral_weight = weights.neutral_fold_steep if steep else weights.neutral_fold
     edge_weight = weights.plan_edge_steep if steep else weights.plan_edge
@@ -64,12 +64,14 @@ def build_terms(sheet: Sheet, target: Target, attract: str, weights: FoldWeights
         Hinge(hinges.vertices[~neutral], rest[~neutral], crease_weight),
         Hinge(hinges.vertices[neutral], np.zeros(neutral.sum()), neutral_weight),
         Attraction(attracted_vertices(sheet, attract), target, ell, weights.attraction),
-        hold_plan_edges(sheet, target.span, ell, edge_weight),
+        hold_plan_edges(sheet, target.sides, ell, edge_weight),
     ]
 
 
-def hold_plan_edges(sheet: Sheet, span: float, reference: float, weight: float) -> PlanEdge:
-    """Hold every border vertex near its edge of the square plan; corners near both."""
+def hold_plan_edges(
+    sheet: Sheet, sides: tuple[float, float], reference: float, weight: float
+) -> PlanEdge:
+    """Hold every border vertex near its edge of the plan; corners near both."""
     grid = sheet.grid
     vertices, axes, positions = [], [], []
     for axis, index, last in (
@@ -80,7 +82,7 @@ def hold_plan_edges(sheet: Sheet, span: float, reference: float, weight: float) 
             chosen = np.flatnonzero(index == border)
             vertices.append(chosen)
             axes.append(np.full(len(chosen), axis))
-            positions.append(np.full(len(chosen), side * span / 2))
+            positions.append(np.full(len(chosen), side * sides[axis] / 2))
     return PlanEdge(
         np.concatenate(vertices), np.concatenate(axes), np.concatenate(positions), reference, weight
     )

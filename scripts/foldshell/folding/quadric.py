@@ -12,7 +12,10 @@ Length = TypeVar("Length", float, np.ndarray)
 
 @dataclass(frozen=True)
 class Quadric:
-    """z = apex + along_x x2 + along_y y2 + twist x y over a square plan of side `span` [m]."""
+    """z = apex + along_x x2 + along_y y2 + twist x y over a plan of sides along x and y [m].
+
+    The plan is a square of side `span` where there is no `rectangle`; else that is the longer one.
+    """
 
     name: str
     span: float
@@ -21,6 +24,12 @@ class Quadric:
     along_x: float
     along_y: float
     twist: float
+    rectangle: tuple[float, float] | None = None
+
+    @property
+    def sides(self) -> tuple[float, float]:
+        """Sides of the plan along x and y [m]."""
+        return self.rectangle or (self.span, self.span)
 
     @property
     def origin(self) -> tuple[float, float, float]:
@@ -107,8 +116,8 @@ class Quadric:
 
     def section_lengths(self) -> tuple[float, float]:
         """Arc lengths [m] of the central sections y = 0 and x = 0 over the span."""
-        half = self.span / 2
-        return 2 * _arc_length(half, self.along_x), 2 * _arc_length(half, self.along_y)
+        x, y = (side / 2 for side in self.sides)
+        return 2 * _arc_length(x, self.along_x), 2 * _arc_length(y, self.along_y)
 
     def walk_section(self, axis: int, arc: np.ndarray) -> np.ndarray:
         """Coordinate (x for axis 0, y for axis 1) at signed arc length from the centre [m]."""
@@ -131,8 +140,10 @@ def _arc_length(x: Length, bend: float) -> Length:
     return (x * np.sqrt(1 + slope**2) + np.arcsinh(slope) / (2 * bend)) / 2
 
 
-def make_quadric(name: str, span: float, height: float) -> Quadric:
-    """Build a target of the study over a square plan [m].
+def make_quadric(
+    name: str, span: float, height: float, sides: tuple[float, float] | None = None
+) -> Quadric:
+    """Build a target of the study over a square plan, or over a rectangle of two `sides` [m].
 
     paraboloid: corners at 0, apex `height`; hypar: saddle with total range `height`;
     hypar_twist: the same range, twisted; arch: profile along zig-zags, springings at 0 on the
@@ -140,14 +151,17 @@ def make_quadric(name: str, span: float, height: float) -> Quadric:
     """
     if not (span > 0 and height > 0):
         raise ValueError(f"span {span}, height {height}: must be positive")
-    unit = height / (span / 2) ** 2
+    if sides is not None:
+        span = max(sides)
+    x, y = (height / (side / 2) ** 2 for side in sides or (span, span))
+    twist = x if sides is None else height / (sides[0] / 2 * sides[1] / 2)
     coefficients = {
-        "paraboloid": (height, -unit / 2, -unit / 2, 0.0),
-        "hypar": (height / 2, unit / 2, -unit / 2, 0.0),
-        "hypar_twist": (height / 2, 0.0, 0.0, unit / 2),
-        "arch": (height, -unit, 0.0, 0.0),
-        "arch_strip": (height, 0.0, -unit, 0.0),
+        "paraboloid": (height, -x / 2, -y / 2, 0.0),
+        "hypar": (height / 2, x / 2, -y / 2, 0.0),
+        "hypar_twist": (height / 2, 0.0, 0.0, twist / 2),
+        "arch": (height, -x, 0.0, 0.0),
+        "arch_strip": (height, 0.0, -y, 0.0),
     }
     if name not in coefficients:
         raise ValueError(f"surface {name!r}: must be one of {', '.join(SURFACES)}")
-    return Quadric(name, float(span), float(height), *coefficients[name])
+    return Quadric(name, float(span), float(height), *coefficients[name], sides)

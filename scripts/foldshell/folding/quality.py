@@ -1,5 +1,7 @@
 """Quality of a folded sheet: what was distorted, what crumpled, what the target misses."""
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from foldshell.folding.intersections import find_intersections
@@ -18,10 +20,12 @@ def measure_quality(
     distances: np.ndarray,
     span: float,
     folded: bool = True,
+    sides: tuple[float, float] | None = None,
 ) -> QualityMeasures:
     """Measure a folded sheet: vertices and flat state (V, 3) [m], signed distances (N,) [m].
 
-    `folded` False leaves out the fold directions, for sheets without folds.
+    `folded` False leaves out the fold directions, for sheets without folds. `span` is that of
+    distances, `sides` are those of a rectangular plan [m].
     """
     strain = edge_lengths(vertices, grid.edges) / edge_lengths(flat, grid.edges) - 1
     planarity = measure_planarity(vertices, grid.quads)
@@ -39,7 +43,7 @@ def measure_quality(
         neutral_fold_max_deg=float(neutral.max()),
         flipped_folds=count_flipped(folds, grid) if folded else 0,
         self_intersections=len(find_intersections(vertices, grid.facets)),
-        plan_coverage=measure_coverage(vertices, grid.facets, span),
+        plan_coverage=measure_coverage(vertices, grid.facets, span if sides is None else sides),
         panels_not_convex=int((~find_convex(vertices, grid.quads)).sum()),
         edge_ratio_max=float(measure_edge_ratio(vertices, grid.quads).max()),
     )
@@ -105,16 +109,16 @@ def measure_strain(vertices: np.ndarray, flat: np.ndarray, facets: np.ndarray) -
 
 
 def measure_coverage(
-    vertices: np.ndarray, facets: np.ndarray, span: float, samples: int = 200
+    vertices: np.ndarray, facets: np.ndarray, span: float | Sequence[float], samples: int = 200
 ) -> float:
-    """Share of the square plan that lies under the sheet, on a grid of sample points.
+    """Share of the plan that lies under the sheet, on a grid of sample points.
 
     Each facet's bounding box in plan is scanned; its points are tested by the signs of the
     three edge functions, whichever way up the facet is.
 
-    vertices (V, 3) m, facets (F, 3), span in m.
+    vertices (V, 3) m, facets (F, 3), span in m, of a rectangle both sides.
     """
-    spacing = span / samples
+    spacing = np.broadcast_to(span, 2) / samples
     corners = vertices[facets][:, :, :2] / spacing + samples / 2 - 0.5
     low = np.clip(np.ceil(corners.min(axis=1)), 0, samples).astype(int)
     high = np.clip(np.floor(corners.max(axis=1)) + 1, 0, samples).astype(int)
@@ -137,7 +141,7 @@ def measure_start_coverage(sheet: Sheet, target: Target, attract: str) -> float:
     A coarse zig-zag border leaves much of the plan free without anything being wrong.
     """
     start = place_sheet(sheet, target, attract)
-    return measure_coverage(start, sheet.grid.facets, target.span)
+    return measure_coverage(start, sheet.grid.facets, target.sides)
 
 
 def _turn(start: np.ndarray, end: np.ndarray, point: np.ndarray) -> np.ndarray:

@@ -24,7 +24,7 @@ class Term(Protocol):
 
 
 class Target(Protocol):
-    """A surface that vertices are drawn to, over a square plan, described from its middle."""
+    """A surface that vertices are drawn to, over a rectangular plan, described from its middle."""
 
     @property
     def origin(self) -> tuple[float, float, float]:
@@ -33,7 +33,12 @@ class Target(Protocol):
 
     @property
     def span(self) -> float:
-        """Side of the plan [m]."""
+        """Longer side of the plan [m]."""
+        ...
+
+    @property
+    def sides(self) -> tuple[float, float]:
+        """Sides of the plan along x and y [m]."""
         ...
 
     @property

@@ -40,6 +40,8 @@ class DesignRow:
     sector_angle_deg: float | None = _column("sector_angle_deg", form="general", default=None)
     rest_fold_angle_deg: float | None = _column("rest_fold_angle_deg", form="general", default=None)
     strip_grading: float | None = _column("strip_grading", form="general", default=None)
+    span_x_m: float | None = _column("span_x_m", form="general", default=None)
+    span_y_m: float | None = _column("span_y_m", form="general", default=None)
     folded: str | None = _column("folded", default=None)
     file_unit: str | None = _column("file_unit", default=None)
     loads: str | None = _column("loads", default=None)

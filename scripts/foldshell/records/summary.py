@@ -83,6 +83,8 @@ class SummaryRow:
     sector_angle_deg: float | None = _design("sector_angle_deg")
     rest_fold_angle_deg: float | None = _design("rest_fold_angle_deg")
     strip_grading: float | None = _design("strip_grading")
+    span_x_m: float | None = _design("span_x_m")
+    span_y_m: float | None = _design("span_y_m")
     folded: str | None = _design("folded")
     file_unit: str | None = _design("file_unit")
     utilization_strip_max: float | None = entry(

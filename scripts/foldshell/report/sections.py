@@ -113,7 +113,7 @@ def describe_design(design: Design) -> str:
     tags = ", ".join(design.tags or ("none",))
     laid = design.pattern in UNFOLDED
     made = "laid out, not folded" if laid else f"folded in mode {design.fold_mode}"
-    size = f"span {design.span:g} m, height {design.height:g} m"
+    size = f"{say_span(design)} m, height {design.height:g} m"
     end = f"supports {design.support}, {made}; tags {tags}"
     if design.folded != NONE:
         unit = f"coordinates in {name_unit(design.file_unit) or 'the unit that it declares'}"
@@ -125,6 +125,12 @@ def describe_design(design: Design) -> str:
         f"{design.zigzag} zig-zags × {design.strip} strips, "
         f"{_name_supports(design)}, {made}; tags {tags}"
     )
+
+
+def say_span(design: Design) -> str:
+    """Return the span, or both sides of a rectangular plan, as words before the unit m."""
+    x, y = design.sides
+    return f"span {x:g}" if x == y else f"plan {x:g} x {y:g} m, span {design.span:g}"
 
 
 def _name_supports(design: Design) -> str:

@@ -105,6 +105,7 @@ def _geometry(design: Design, final: AnalysisRecord, view: DesignView) -> Table:
     rows = [
         ("pattern, surface", f"{design.pattern}, {design.surface}"),
         ("span, height of the target [m]", f"{design.span:g}, {design.height:g}"),
+        *_list_sides(design),
         ("extents x, y, z [m]", ", ".join(f"{value:.2f}" for value in size)),
         *[("zig-zags x strips", f"{design.zigzag} x {design.strip}")] * design.on_grid,
         ("panels", len(thickness)),
@@ -115,6 +116,12 @@ def _geometry(design: Design, final: AnalysisRecord, view: DesignView) -> Table:
         ("volume / area [mm]", 1e3 * final.volume_m3 / final.area_m2),
     ]
     return make_table(("quantity", "value"), rows)
+
+
+def _list_sides(design: Design) -> list[tuple[str, str]]:
+    x, y = design.sides
+    words = "sides of the plan along x, y [m]; the span of limits is the shorter"
+    return [] if x == y else [(words, f"{x:g}, {y:g}")]
 
 
 def describe_supports(design: Design) -> str:

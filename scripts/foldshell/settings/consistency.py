@@ -47,7 +47,8 @@ def check_thickness(design: Design, sizing: Sizing, where: str) -> None:
 
     A panel's width in plan is the closest distance of two polylines; folded panels are wider.
     """
-    width = design.span / (max(design.zigzag, design.strip) - 1)
+    x, y = design.sides
+    width = min(x / (design.strip - 1), y / (design.zigzag - 1))
     for key in ("start_thickness", "least_thickness"):
         thickness = getattr(sizing, key)
         if thickness >= width:

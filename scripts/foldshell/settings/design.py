@@ -23,7 +23,9 @@ NONE = "none"
 """Stands for a file that is not given, and for the surface of a sheet that is folded already."""
 FOLDED = "folded"
 """Pattern of a design whose folded sheet is a file."""
-SILENT_AT_ZERO = ("sector_angle_deg", "rest_fold_angle_deg", "strip_grading")
+MIURA_COLUMNS = ("sector_angle_deg", "rest_fold_angle_deg", "strip_grading")
+"""Columns of the Miura pattern alone."""
+SILENT_AT_ZERO = (*MIURA_COLUMNS, "span_x_m", "span_y_m")
 """Columns that say nothing where they are 0, as if they were not there."""
 FOLD_MODES = ("elastic", "isometric", "exact", "rigid")
 
@@ -44,7 +46,9 @@ class DesignColumns(Group):
     )
     span: float = setting(
         28, unit="m", minimum=0.1, maximum=500,
-        meaning="Side of the square plan; tolerances of folding and mesh are made for buildings.",
+        meaning="Side of the square plan; tolerances of folding and mesh are made for buildings. "
+        "Of a rectangle it becomes the shorter side, the span of the limit of displacement; "
+        "distances to the target are measured over the longer one.",
     )  # fmt: skip
     height: float = setting(
         10, unit="m", above=0, maximum=500,
@@ -97,6 +101,14 @@ class DesignColumns(Group):
         meaning="How much wider the strips of a Miura sheet are at the borders than in the middle, "
         "in mean widths; below 0 they are narrower there.",
     )  # fmt: skip
+    span_x: float = setting(
+        0, unit="m", ranges=((0.1, 500),),
+        meaning="Side of a rectangular plan along x, across the strips; 0 takes span_m.",
+    )  # fmt: skip
+    span_y: float = setting(
+        0, unit="m", ranges=((0.1, 500),),
+        meaning="Side of a rectangular plan along y, across the zig-zags; 0 takes span_m.",
+    )  # fmt: skip
     folded: str = setting(
         NONE,
         meaning=f"A sheet that is folded already, from a file ({', '.join(FOLDED_FORMATS)}), in "
@@ -138,6 +150,11 @@ class Design(DesignColumns):
         """The files that the design is made of: surface, pattern, folded sheet."""
         named = ((self.surface, SURFACES), (self.pattern, (*PATTERNS, FOLDED)), (self.folded, ()))
         return tuple(name for name, known in named if name not in (NONE, *known))
+
+    @property
+    def sides(self) -> tuple[float, float]:
+        """Sides of its plan along x and y, m; both are the span of a square."""
+        return self.span_x or self.span, self.span_y or self.span
 
     @property
     def holding(self) -> str | list[PlainRow]:

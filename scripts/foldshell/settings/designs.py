@@ -9,7 +9,7 @@ from pathlib import Path
 from foldshell.files.errors import InputError
 from foldshell.settings.check import Reader, parse_text
 from foldshell.settings.consistency import check_thickness
-from foldshell.settings.design import COLUMNS, SILENT_AT_ZERO, Design, DesignColumns
+from foldshell.settings.design import COLUMNS, MIURA_COLUMNS, NONE, Design, DesignColumns
 from foldshell.settings.design_files import check_pattern, check_surface, settle_files
 from foldshell.settings.field import list_settings
 from foldshell.settings.nearest import hint_nearest
@@ -74,7 +74,7 @@ def _make_design(
     words = dict.fromkeys(tag.strip() for tag in tags.split(",") if tag.strip())
     columns = vars(settings.defaults) | given
     design = Design(name=cells["design"], tags=tuple(words), **columns)
-    design = settle_files(design, given, where)
+    design = _settle_sides(settle_files(design, given, where), where)
     _check_edge_beam(design, where)
     _check_miura(design, settings, where)
     if design.panels:
@@ -86,6 +86,22 @@ def _make_design(
             "are allowed"
         )
     return design
+
+
+def _settle_sides(design: Design, where: str) -> Design:
+    """Return a design whose span is the shorter side of its plan; a square has no other sides."""
+    if not (design.span_x or design.span_y):
+        return design
+    if design.folded != NONE:
+        name = "span_x_m" if design.span_x else "span_y_m"
+        raise InputError(
+            f"{where}: {name}: given beside folded = {design.folded!r}, whose plan is its own: an "
+            "empty cell is allowed"
+        )
+    x, y = design.sides
+    if x == y:
+        return replace(design, span=x, span_x=0.0, span_y=0.0)
+    return replace(design, span=min(x, y), span_x=x, span_y=y)
 
 
 def _add_support_rows(
@@ -132,7 +148,7 @@ def _check_edge_beam(design: Design, where: str) -> None:
 
 
 def _check_miura(design: Design, settings: Settings, where: str) -> None:
-    for column in SILENT_AT_ZERO:
+    for column in MIURA_COLUMNS:
         if getattr(design, column) and design.pattern not in ("miura", "flat"):
             raise InputError(
                 f"{where}: {column}: {getattr(design, column):g}: pattern {design.pattern} has no "

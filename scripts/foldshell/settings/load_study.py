@@ -63,10 +63,10 @@ def measure_surface_files(designs: Iterable[Design], source: str, notes: list[st
     `notes` gathers what of a file was left out. Raises `InputError` for a mesh file that cannot be
     the target of its design. Each file is read once for each span, whatever the number of designs.
     """
-    heights: dict[tuple[str, float, str], float] = {}
+    heights: dict[tuple, float] = {}
     found = []
     for design in designs:
-        key = design.surface, design.span, design.file_unit
+        key = design.surface, design.span, design.file_unit, design.sides
         if design.surface not in (*SURFACES, NONE) and key not in heights:
             try:
                 surface = read_surface(*key)

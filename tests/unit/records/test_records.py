@@ -29,7 +29,7 @@ from foldshell.records.plain import to_plain
 from foldshell.records.schema import make_schema, write_schemas
 from foldshell.records.summary import SummaryRow
 from foldshell.records.table import read_rows, write_rows
-from foldshell.settings.designs import COLUMNS, SILENT_AT_ZERO
+from foldshell.settings.design import COLUMNS, SILENT_AT_ZERO
 
 DOCS = Path(__file__).parents[3] / "docs" / "records.md"
 ANALYSIS = {

@@ -43,8 +43,13 @@ class Surface:
     notes: tuple[str, ...]
 
 
-def read_surface(path: str | Path, span: float, file_unit: str = "m") -> Surface:
-    """Read a target surface over a square plan of side `span` [m].
+def read_surface(
+    path: str | Path,
+    span: float,
+    file_unit: str = "m",
+    sides: tuple[float, float] | None = None,
+) -> Surface:
+    """Read a target surface over a square plan of side `span` [m], or a rectangle of two `sides`.
 
     `file_unit` is that of the file's coordinates, a key of FACTORS.
 
@@ -61,9 +66,10 @@ def read_surface(path: str | Path, span: float, file_unit: str = "m") -> Surface
         step = factor * _measure_step(given)
         _check_step(found, step if mesh.single else 0.0)
         try:
-            _check_scale(high - low, span, factor)
+            plan = np.array(sides or (span, span))
+            _check_scale(high - low, plan, factor)
             _check_surface(found, span, step)
-            _check_cover(found, middle, span, step)
+            _check_cover(found, middle, plan, step)
         except MeshError as error:
             raise MeshError(f"{error}{_suspect_end(mesh)}") from None
     except MeshError as error:
@@ -111,16 +117,18 @@ def _suspect_end(mesh: Mesh) -> str:
     return f"; no face uses the last {count(unused, 'vertex', 'vertices')}, it may be cut off"
 
 
-def _check_scale(size: np.ndarray, span: float, factor: float) -> None:
-    if _fits(size[:2], span):
+def _check_scale(size: np.ndarray, sides: np.ndarray, factor: float) -> None:
+    if _fits(size[:2], sides):
         return
+    square = sides[0] == sides[1]
+    due = f"{sides[0]:g}" if square else f"{sides[0]:g} x {sides[1]:g}"
     raise MeshError(
-        f"plan {size[0]:.4g} x {size[1]:.4g} m: must cover the span of {span:g} m and be at most "
-        f"{LARGEST:g} times as large{guess_cause(size, span, factor)}"
+        f"plan {size[0]:.4g} x {size[1]:.4g} m: must cover the span of {due} m and be at most "
+        f"{LARGEST:g} times as large{guess_cause(size, sides.min(), factor)}"
     )
 
 
-def _fits(plan: np.ndarray, span: float) -> bool:
+def _fits(plan: np.ndarray, span: float | np.ndarray) -> bool:
     return bool((plan >= LEAST * span).all() and (plan <= LARGEST * span).all())
 
 
@@ -189,23 +197,30 @@ def _say_place(point: np.ndarray) -> str:
     return f"x = {point[0]:.6g}, y = {point[1]:.6g} m"
 
 
-def _check_cover(found: Triangles, middle: np.ndarray, span: float, step: float) -> None:
-    """Refuse a surface that leaves a place of the plan without a height near it."""
+def _check_cover(found: Triangles, middle: np.ndarray, sides: np.ndarray, step: float) -> None:
+    """Refuse a surface that leaves a place of the plan without a height near it.
+
+    A rectangle is looked at as the square of its longer side, the other axis stretched to it.
+    """
+    span = sides.max()
+    stretch = span / sides
     along = np.linspace(-0.45 * span, 0.45 * span, SAMPLES)
     points = np.stack(np.meshgrid(along, along, indexing="ij"), axis=-1).reshape(-1, 2)
-    corners = found.vertices[found.triangles][:, :, :2] - middle
+    corners = (found.vertices[found.triangles][:, :, :2] - middle) * stretch
     bare = points[~find_covered(corners, along)]
     if not len(bare):
         return
     edges, number = find_border(found.triangles)
-    border = found.vertices[edges[number == 1]][:, :, :2] - middle
+    border = (found.vertices[edges[number == 1]][:, :, :2] - middle) * stretch
     gap = measure_gaps(bare, border)
     worst = int(gap.argmax())
     if gap[worst] > 0.02 * span:
+        square = sides[0] == sides[1]
+        size = f"side {span:g} m" if square else f"{sides[0]:g} x {sides[1]:g} m"
+        place = _say_place(bare[worst] / stretch + middle)
         raise MeshError(
-            f"no surface above {_say_place(bare[worst] + middle)}: must cover the square plan of "
-            f"side {span:g} m about {_say_place(middle)}, the middle of its own plan"
-            f"{_suspect_step(found, step)}"
+            f"no surface above {place}: must cover the {'square ' if square else ''}plan of {size} "
+            f"about {_say_place(middle)}, the middle of its own plan{_suspect_step(found, step)}"
         )
 
 
