@@ -44,6 +44,7 @@ rule page:
         class_arrays=CLASSES["arrays"],
         mesh_convergence=rules.mesh_convergence.output.study,
         comparison=rules.compare.output.comparison,
+        engineering=rules.check.output.record,
         pictures=[rules.draw.output[name] for name in PICTURES],
         library=code_inputs("page"),
         assets=assets(),

@@ -62,6 +62,7 @@ def report_designs(wildcards):
     """Return the files of designs that our report reads, and the pages that it leads to."""
     files = ["sizing/final.json", "sizing/final.npz", "folded/folded.npz"]
     files += ["crosscheck/comparison.json", "mesh_convergence.json", "page.html", "sheet.html"]
+    files.append("checks/engineering.json")
     return [f"{RESULTS}/{name}/{file}" for name in names_of_tag(SETTINGS.study) for file in files]
 
 

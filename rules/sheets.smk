@@ -9,6 +9,7 @@ rule sheet:
         final=rules.size.output.final,
         mesh_convergence=rules.mesh_convergence.output.study,
         comparison=rules.compare.output.comparison,
+        engineering=rules.check.output.record,
         utilization=rules.draw.output.utilization,
         library=code_inputs("sheet"),
         assets=assets(),

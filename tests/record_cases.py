@@ -79,8 +79,8 @@ def make_convergence(errors=None, reason=None, **changes) -> MeshConvergenceReco
 def make_check(value=0.5, limit=1.0, met=True, **changes) -> EngineeringCheck:
     """Return one engineering check."""
     rest = {
-        "words": "strength on strips", "unit": "", "at_least": False, "combination": "ULS1",
-        "panel": 3, "mesh_error": 0.02, "within_mesh_error": False,
+        "words": "strength on strips", "unit": "", "at_least": False,
+        "governing_combination": "ULS1", "panel": 3, "mesh_error": 0.02, "within_mesh_error": False,
     }  # fmt: skip
     return EngineeringCheck(value=value, limit=limit, met=met, **rest | changes)
 

@@ -17,6 +17,7 @@ from record_cases import (
     make_classes,
     make_comparison,
     make_convergence,
+    make_engineering,
     make_quality,
     make_quantity,
 )
@@ -41,6 +42,7 @@ def write_files(folder, classes=True, comparison=None, history=True, edited=None
     write_record(folder / "study.json", make_convergence({"S2": {"work_knm": 0.03}}))
     quantities = {"S2 work_knm": make_quantity()}
     write_record(folder / "comparison.json", comparison or make_comparison(False, quantities))
+    write_record(folder / "engineering.json", make_engineering(verdict="fails", reason="tension"))
     shared = {"verdict": "continue", "reason": "", "second_order_iterations": 3}
     rows = [HistoryRow(iteration=0, volume_m3=2.0, **shared)]
     if history:
@@ -58,7 +60,8 @@ def write_files(folder, classes=True, comparison=None, history=True, edited=None
     paths = {"mesh": mesh, "folded": folded, "arrays": arrays, "final": final}
     names = {"class_arrays": "classes.npz", "classes": "classes.json", "quality": "quality.json",
              "mesh_convergence": "study.json", "comparison": "comparison.json",
-             "history": "history.csv", "iterations": "iterations.npz"}  # fmt: skip
+             "history": "history.csv", "iterations": "iterations.npz",
+             "engineering": "engineering.json"}  # fmt: skip
     return paths | {key: folder / name for key, name in names.items()}, pictures
 
 

@@ -11,10 +11,13 @@ from PIL import Image
 
 import report
 from foldshell.files.whole import write_json
+from foldshell.records.files import write_record
 from foldshell.report import study_report
-from foldshell.report.checks import Check, describe_share, find_governing, find_ratio
+from foldshell.report.checks import Check, describe_share, find_governing
+from foldshell.report.engineering import list_engineering
 from foldshell.settings.make import make_settings
 from foldshell.settings.stages import stage_parameters
+from record_cases import make_check, make_engineering
 
 CHROMIUM = shutil.which("chromium") or shutil.which("chromium-browser") or shutil.which("chrome")
 EVIL = "</script><img src=x onerror=\"document.title='owned'\">"
@@ -134,21 +137,21 @@ def test_hostile_cells_stay_texts(tmp_path):
 
 
 def test_claims_and_engineering_checks_are_shown_where_they_are(tmp_path):
-    """A judged claim has its verdict; a check of engineering.json can govern."""
+    """A judged claim has its verdict; an engineering check stands beside the paper's."""
     arguments = write_results(tmp_path)
     claim = {"id": "C1", "claim": "stiffer on all edges", "verdict": "holds", "designs": ["a"],
              "numbers": NUMBERS, "uncertainty": {"largest_relative": {}, "method": "meshes"},
              "notes": ["a note"]}  # fmt: skip
     write_json(tmp_path / "claims.json", [claim])
     arguments["paths"]["claims"] = tmp_path / "claims.json"
-    check = {"value": 120.0, "limit": 100.0, "unit": "kN/m", "met": False,
-             "governing_combination": "S1", "panel": 7}  # fmt: skip
-    write_json(tmp_path / "a/checks/engineering.json", {"checks": {"steel": check}})
+    check = make_check(120.0, 100.0, False, words="steel", unit="kN/m", panel=7)
+    record = make_engineering({"steel": check}, verdict="fails")
+    write_record(tmp_path / "a/checks/engineering.json", record)
     report.main(**arguments)
     text = arguments["report"].read_text(encoding="utf-8")
     for words in ("C1: stiffer on all edges", "a note", "softer by one tenth",
                   "a part", "over 42", "steel [kN/m]: 120, limit 100 (120 % of",
-                  "combination S1, panel 7"):  # fmt: skip
+                  "combination ULS1, panel 7", "engineering: steel"):  # fmt: skip
         assert words in text, words
 
 
@@ -161,13 +164,15 @@ def test_too_large_a_report_is_refused(tmp_path, monkeypatch):
 
 
 @pytest.mark.parametrize(
-    ("value", "limit", "met", "ratio"),
-    [(0.8, 1.0, True, 0.8), (1.2, 1.0, False, 1.2), (10.0, 1.5, True, 0.15),
-     (1.2, 1.5, False, 1.25), (None, 1.0, None, None), (-3.0, 4.0, True, 0.75)],
+    ("value", "limit", "at_least", "ratio"),
+    [(0.8, 1.0, False, 0.8), (1.2, 1.0, False, 1.2), (10.0, 1.5, True, 0.15),
+     (1.2, 1.5, True, 1.25), (None, 1.0, False, None), (3.0, None, False, None)],
 )  # fmt: skip
-def test_ratio_knows_on_which_side_of_the_limit_it_is_good(value, limit, met, ratio):
+def test_ratio_knows_on_which_side_of_the_limit_it_is_good(value, limit, at_least, ratio):
     """1 at the limit, above it only where the check fails, for largest and least values alike."""
-    assert find_ratio(value, limit, met) == (None if ratio is None else pytest.approx(ratio))
+    record = make_engineering({"a": make_check(value, limit, at_least=at_least)})
+    (check,) = list_engineering(record)
+    assert check.ratio == (None if ratio is None else pytest.approx(ratio))
 
 
 @pytest.mark.parametrize(

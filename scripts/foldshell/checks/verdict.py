@@ -35,7 +35,7 @@ def hold_against(
         turned = any(_keeps(one, limit, at_least) != met for one in bounds)
     return EngineeringCheck(
         words=words, value=value, limit=limit, unit=unit, at_least=at_least, met=met,
-        combination=found.combination, panel=found.panel, mesh_error=mesh_error,
+        governing_combination=found.combination, panel=found.panel, mesh_error=mesh_error,
         within_mesh_error=turned,
     )  # fmt: skip
 
@@ -50,7 +50,7 @@ def unknown_check(words: str, limit: float, unit: str = "", at_least: bool = Fal
     """Return a check that is not met because nothing is known of it."""
     return EngineeringCheck(
         words=words, value=None, limit=limit, unit=unit, at_least=at_least, met=False,
-        combination=None, panel=None, mesh_error=None, within_mesh_error=False,
+        governing_combination=None, panel=None, mesh_error=None, within_mesh_error=False,
     )  # fmt: skip
 
 
@@ -75,7 +75,7 @@ def _describe(check: EngineeringCheck, begin: str) -> str:
         return f"{begin}: not known"
     relation = "below" if check.at_least else "above"
     unit = f" {check.unit}" if check.unit else ""
-    where = [check.combination, None if check.panel is None else f"panel {check.panel}"]
+    where = [check.governing_combination, None if check.panel is None else f"panel {check.panel}"]
     placed = ", ".join(filter(None, where))
     text = f"{begin}: {show(check.value)} {relation} {show(check.limit)}{unit}"
     return f"{text} ({placed})" if placed else text

@@ -24,7 +24,7 @@ class EngineeringCheck:
     unit: str = entry("unit of both; empty for none")
     at_least: bool = entry("whether the value has to reach the limit; it has to stay within else")
     met: bool | None = entry("whether it holds; null for information")
-    combination: str | None = entry("the combination that governs")
+    governing_combination: str | None = entry("the combination that governs")
     panel: int | None = entry("the panel where it governs")
     mesh_error: float | None = entry("relative error of the value on the mesh in use", "-")
     within_mesh_error: bool = entry("whether the answer may turn within that error")

@@ -5,7 +5,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from foldshell.files.whole import Json, read_json
 from foldshell.records.analysis import AnalysisRecord, Criterion
 from foldshell.records.entry import Entry
 from foldshell.report.markup import format_number
@@ -42,10 +41,9 @@ class Check:
 
 def list_checks(
     final: AnalysisRecord,
-    engineering: Json | None = None,
     panels: Mapping[str, PanelPlace] | None = None,
 ) -> list[Check]:
-    """Return the checks of a final state; those of checks/engineering.json follow, if given.
+    """Return the checks of a final state by the paper's criteria.
 
     `panels` are the most utilized ones by the criterion that finds them.
     """
@@ -59,8 +57,6 @@ def list_checks(
         where = f"combination {final.least_factor_combination}"
         ratio = 1 / factor if factor > 0 else None
         checks.append(Check(BUCKLING, factor, 1.0, ratio, factor >= 1.0, where))
-    for name, item in ((engineering or {}).get("checks") or {}).items():
-        checks.append(_of_engineering(name, item))
     return checks
 
 
@@ -81,27 +77,6 @@ def _of_criterion(about: Entry, item: Criterion, where: str) -> Check:
     scale, words = (1e3, f"{about.words} [mm]") if about.unit == "m" else (1.0, about.label())
     ratio = item.value / item.limit if item.limit else None
     return Check(words, scale * item.value, scale * item.limit, ratio, item.met, where)
-
-
-def _of_engineering(name: str, item: Json) -> Check:
-    value, limit, met = item.get("value"), item.get("limit"), item.get("met")
-    unit = f" [{item['unit']}]" if item.get("unit") else ""
-    places = [f"{words} {item[key]}" for key, words in (("combination", "combination"),
-              ("governing_combination", "combination"), ("panel", "panel"))
-              if item.get(key) is not None]  # fmt: skip
-    return Check(f"{name.replace('_', ' ')}{unit}", value, limit,
-                 find_ratio(value, limit, met), met, ", ".join(places))  # fmt: skip
-
-
-def find_ratio(value: float | None, limit: float | None, met: bool | None) -> float | None:
-    """Return the share of the limit that a value uses; whether it is met tells which side of the
-    limit is the good one."""
-    if not isinstance(value, int | float) or not isinstance(limit, int | float):
-        return None
-    below = abs(value) <= abs(limit)
-    upper = met is None or below == bool(met)
-    above, under = (abs(value), abs(limit)) if upper else (abs(limit), abs(value))
-    return above / under if under else None
 
 
 def describe_share(ratio: float | None) -> str:
@@ -126,18 +101,5 @@ def find_governing(checks: Sequence[Check]) -> Check | None:
 
 
 def read_checks(final: AnalysisRecord, paths: Mapping[str, str | Path]) -> list[Check]:
-    """Return the checks of a final state with what files of its design add.
-
-    `paths` are final (json), arrays (final.npz) and folded (npz).
-    """
-    engineering = read_engineering(Path(paths["final"]).parents[1])
-    return list_checks(final, engineering, read_panels(paths["arrays"], paths["folded"]))
-
-
-def read_engineering(folder: str | Path) -> Json | None:
-    """Return checks/engineering.json of a design's folder, None where there is none."""
-    try:
-        found = read_json(Path(folder, "checks/engineering.json"))
-    except (OSError, ValueError):
-        return None
-    return found if isinstance(found, dict) else None
+    """Return the checks of a final state; `paths` are arrays (final.npz) and folded (npz)."""
+    return list_checks(final, read_panels(paths["arrays"], paths["folded"]))

@@ -9,6 +9,7 @@ from foldshell.files.units import name_unit
 from foldshell.records.analysis import AnalysisRecord, Criteria, read_analysis
 from foldshell.records.classes import ClassesRecord
 from foldshell.records.comparison import ComparisonRecord, read_comparison
+from foldshell.records.engineering import EngineeringRecord
 from foldshell.records.entry import Entry, entries
 from foldshell.records.files import read_record
 from foldshell.records.history import HistoryRow
@@ -16,6 +17,7 @@ from foldshell.records.mesh_convergence import MeshConvergenceRecord
 from foldshell.records.quality import QualityRecord
 from foldshell.records.table import read_rows
 from foldshell.report.checks import Check, describe_share, find_governing, read_checks
+from foldshell.report.engineering import make_engineering, read_verdict
 from foldshell.report.history_chart import Series, draw_history
 from foldshell.report.markup import format_number, make_table
 from foldshell.report.quality_sections import make_crosscheck, make_mesh_error
@@ -58,6 +60,7 @@ HEADLINES = (
     "mesh_subdivisions",
     "dofs",
 )
+CHECKS = "Checks by the paper's criteria"
 
 
 @dataclass(frozen=True)
@@ -72,6 +75,7 @@ class DesignFiles:
     comparison: ComparisonRecord
     history: Sequence[HistoryRow]
     checks: Sequence[Check] = ()
+    engineering: EngineeringRecord | None = None
 
 
 def read_files(design: Design, paths: Mapping[str, str | Path]) -> DesignFiles:
@@ -89,6 +93,7 @@ def read_files(design: Design, paths: Mapping[str, str | Path]) -> DesignFiles:
         comparison=read_comparison(paths["comparison"]),
         history=read_rows(paths["history"], HistoryRow),
         checks=read_checks(final, paths),
+        engineering=read_verdict(paths.get("engineering")),
     )
 
 
@@ -96,11 +101,13 @@ def make_sections(files: DesignFiles, utilization_max: float) -> list[Section]:
     """Return all sections of a design's page, what matters most first."""
     return [
         make_verdict(files.final, files.history),
+        *(engineering := make_engineering(files.engineering))[:1],
         *make_warnings(files.final),
         make_checks(files.checks, say_both([files.final])),
         make_criteria(files.final.criteria),
         make_history(files.history, utilization_max),
         make_headlines(files.final),
+        *engineering[1:],
         make_crosscheck(files.comparison),
         make_mesh_error(files.mesh_convergence),
         make_classes(files.classes),
@@ -143,7 +150,7 @@ def make_verdict(final: AnalysisRecord, history: Sequence[HistoryRow] = ()) -> S
     kind = "good" if final.verdict in GOOD_VERDICTS else "bad"
     words = f"after {count_analyses(final)}"
     box = Box(kind, words, final.verdict.replace("_", " "), final.reason)
-    return Section("Verdict", box, note=describe_edits(history))
+    return Section("Verdict by the paper's criteria", box, note=describe_edits(history))
 
 
 def make_warnings(final: AnalysisRecord) -> list[Section]:
@@ -161,7 +168,10 @@ def make_checks(checks: Sequence[Check], reading: str = "") -> Section:
     """
     governing = find_governing(checks)
     if governing is None:
-        return Section("Checks", words="No check has a value: the analysis gave no results.")
+        return Section(
+            "Checks by the paper's criteria",
+            words="No check has a value: the analysis gave no results.",
+        )
     rows = [
         (check.name, check.value, check.limit, describe_share(check.ratio), judge_met(check.met),
          check.where)
@@ -169,7 +179,9 @@ def make_checks(checks: Sequence[Check], reading: str = "") -> Section:
     ]  # fmt: skip
     header = ("check", "value", "limit", "of its limit", "met", "where")
     box = Box("good" if governing.met else "bad", governing.words, "governs")
-    return Section("Checks", box, words=reading, table=make_table(header, rows))
+    return Section(
+        "Checks by the paper's criteria", box, words=reading, table=make_table(header, rows)
+    )
 
 
 def describe_edits(history: Sequence[HistoryRow]) -> str:

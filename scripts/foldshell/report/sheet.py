@@ -9,8 +9,10 @@ import numpy as np
 from foldshell.files.whole import Json
 from foldshell.records.analysis import AnalysisRecord
 from foldshell.records.comparison import ComparisonRecord
+from foldshell.records.engineering import EngineeringRecord
 from foldshell.records.mesh_convergence import MeshConvergenceRecord
 from foldshell.report.checks import Check, describe_share, find_governing
+from foldshell.report.engineering import describe_measures, list_engineering
 from foldshell.report.loads_section import describe_loads
 from foldshell.report.markup import Table, format_number, make_table
 from foldshell.report.places import find_panel
@@ -38,6 +40,7 @@ class SheetFiles:
     convergence: MeshConvergenceRecord
     checks: Sequence[Check]
     reactions: Reactions | None
+    engineering: EngineeringRecord | None = None
 
 
 def find_marks(view: DesignView, final: AnalysisRecord) -> list[Mark]:
@@ -80,10 +83,24 @@ def make_sheet(files: SheetFiles, view: DesignView, settings: StageSettings) -> 
         "reading": say_theory(files.final),
         "measure": say_measure(files.final),
         "checks": [_bar(check) for check in files.checks],
+        "engineering": _describe_engineering(files.engineering),
         "tables": {name: list_texts(table) for name, table in tables.items() if table.rows},
         "warning": files.final.warning or "",
         "edited": files.final.edited,
         "settings_hash": files.final.settings_hash,
+    }
+
+
+def _describe_engineering(record: EngineeringRecord | None) -> Json | None:
+    """Return the engineering verdict with its checks, None without one."""
+    if record is None:
+        return None
+    return {
+        "verdict": record.verdict.replace("_", " "),
+        "good": record.verdict == "passes",
+        "reason": record.reason,
+        "checks": [_bar(check) for check in list_engineering(record)],
+        "measures": describe_measures(record),
     }
 
 

@@ -8,6 +8,7 @@ from foldshell.records.comparison import read_comparison
 from foldshell.records.files import read_record
 from foldshell.records.mesh_convergence import MeshConvergenceRecord
 from foldshell.report.checks import read_checks
+from foldshell.report.engineering import read_verdict
 from foldshell.report.sheet import SheetFiles
 from foldshell.results.design_view import DesignView, view_design
 from foldshell.results.reactions import find_reactions
@@ -30,4 +31,6 @@ def read_sheet(
     checks = read_checks(final, paths)
     view = view_design(state, settings, design.span, design.pattern)
     comparison, reactions = read_comparison(paths["comparison"]), find_reactions(view, settings)
-    return SheetFiles(design, final, comparison, convergence, checks, reactions), view
+    engineering = read_verdict(paths.get("engineering"))
+    files = SheetFiles(design, final, comparison, convergence, checks, reactions, engineering)
+    return files, view

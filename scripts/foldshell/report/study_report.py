@@ -4,7 +4,7 @@ import base64
 import io
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 
 from PIL import Image
@@ -19,6 +19,7 @@ from foldshell.records.summary import SummaryRow
 from foldshell.records.table import read_rows
 from foldshell.report.beside import list_exports
 from foldshell.report.checks import Check, describe_share, find_governing, read_checks
+from foldshell.report.engineering import list_engineering, read_verdict
 from foldshell.report.loads_section import describe_loads
 from foldshell.report.markdown import render_markdown
 from foldshell.report.markup import Table, make_table, render
@@ -45,6 +46,7 @@ class DesignEntry:
     comparison: ComparisonRecord
     convergence: MeshConvergenceRecord
     exports: Sequence[str] = ()
+    engineering: Sequence[Check] = ()
 
     @property
     def name(self) -> str:
@@ -86,6 +88,7 @@ def _read_design(row: SummaryRow, folder: Path) -> DesignEntry:
         read_comparison(folder / "crosscheck/comparison.json"),
         read_record(folder / "mesh_convergence.json", MeshConvergenceRecord),
         list_exports(folder),
+        list_engineering(read_verdict(folder / "checks/engineering.json")),
     )
 
 
@@ -137,6 +140,7 @@ def write_study_report(
 def _make_card(entry: DesignEntry, columns: Sequence[Column], to_results: str, tiles: Json) -> Json:
     """Return what the report says of one design, as plain data for template and script."""
     governing = find_governing(entry.checks)
+    engineering = find_governing(entry.engineering)
     row = make_row(entry.row, columns, governing)
     return {
         "name": entry.name,
@@ -146,6 +150,7 @@ def _make_card(entry: DesignEntry, columns: Sequence[Column], to_results: str, t
         "values": {key: cell.value for key, cell in row.items()},
         "kinds": {key: cell.kind for key, cell in row.items() if cell.kind},
         "governing": governing.words if governing else "no check has a value",
+        "engineering": engineering.words if engineering else "",
         "warning": entry.row.model_warnings or "",
         "tags": [tag for tag in entry.row.tags.split(",") if tag],
         "pictures": {name: sheet["pictures"].get(entry.name, "") for name, sheet in tiles.items()},
@@ -172,10 +177,14 @@ def describe_kinds(rows: Sequence[SummaryRow]) -> str:
 
 
 def list_worst(designs: Sequence[DesignEntry]) -> Table:
-    """Return the worst check of each kind over all designs: which design, value, limit, share."""
+    """Return the worst check of each kind over all designs: which design, value, limit, share.
+
+    Those by the paper's criteria come first, engineering ones say so.
+    """
     found: dict[str, tuple[str, Check]] = {}
     for entry in designs:
-        for check in entry.checks:
+        named = [replace(check, name=f"engineering: {check.name}") for check in entry.engineering]
+        for check in (*entry.checks, *named):
             known = found.get(check.name)
             if check.ratio is not None and (known is None or check.ratio > known[1].ratio):
                 found[check.name] = (entry.name, check)

@@ -79,8 +79,8 @@ def add_checks(book: Any, styles: Styles, record: EngineeringRecord, title: str)
 def _list_cells(check: EngineeringCheck) -> list[Any]:
     met = {None: NO_LIMIT, True: "yes", False: "no"}[check.met]
     met += ", within mesh error" if check.within_mesh_error else ""
-    return [check.words, check.value, check.limit, check.unit, None, met, check.combination,
-            check.panel, check.mesh_error]  # fmt: skip
+    first = [check.words, check.value, check.limit, check.unit, None, met]
+    return [*first, check.governing_combination, check.panel, check.mesh_error]
 
 
 def _write_share(sheet: Any, styles: Styles, row: int, check: EngineeringCheck) -> None:

@@ -1,0 +1,117 @@
+"""The engineering verdict on pages: its checks, beside and never among the paper's criteria."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+import numpy as np
+
+from foldshell.files.errors import InputError
+from foldshell.records.engineering import NO_LIMIT, EngineeringCheck, EngineeringRecord
+from foldshell.records.files import read_record
+from foldshell.report.checks import Check, describe_share
+from foldshell.report.markup import Table, make_table
+from foldshell.report.section import Box, Folded, Section, judge_met
+
+KINDS = {"passes": "good", "fails": "bad", "not_applicable": ""}
+COMPONENTS = ("nx", "ny", "nxy", "mx", "my", "mxy", "vx", "vy")
+HEADER = ("check", "value", "limit", "of its limit", "met", "where")
+
+
+def read_verdict(path: str | Path | None) -> EngineeringRecord | None:
+    """Return checks/engineering.json, None where there is none or it cannot be read."""
+    try:
+        return read_record(path, EngineeringRecord) if path else None
+    except InputError:
+        return None
+
+
+def list_engineering(record: EngineeringRecord | None) -> list[Check]:
+    """Return the checks of an engineering verdict, displacements in mm."""
+    return [] if record is None else [_show(one) for one in record.checks.values()]
+
+
+def _show(check: EngineeringCheck) -> Check:
+    factor, unit = (1e3, "mm") if check.unit == "m" else (1.0, check.unit)
+    value, limit = (None if one is None else factor * one for one in (check.value, check.limit))
+    ratio = None
+    if value and limit:
+        ratio = limit / value if check.at_least else value / limit
+    where = [f"combination {check.governing_combination}"] * bool(check.governing_combination)
+    where += [f"panel {check.panel}"] * (check.panel is not None)
+    where += ["within the mesh error"] * check.within_mesh_error
+    where += [NO_LIMIT] * (check.limit is None)
+    name = f"{check.words} [{unit}]" if unit else check.words
+    return Check(name, value, limit, ratio, check.met, ", ".join(where))
+
+
+def make_engineering(record: EngineeringRecord | None) -> list[Section]:
+    """Return verdict and checks, then combinations, reactions and section forces, folded."""
+    if record is None:
+        return []
+    box = Box(KINDS[record.verdict], "by the engineering checks, under combinations of its own",
+              record.verdict.replace("_", " "), record.reason)  # fmt: skip
+    rows = [(one.name, one.value, one.limit, describe_share(one.ratio), judge_met(one.met),
+             one.where) for one in list_engineering(record)]  # fmt: skip
+    sections = [
+        Section("Engineering verdict", box, table=make_table(HEADER, rows),
+                note=describe_measures(record)),
+        Section("Engineering: combinations", folded=Folded(
+            "factors of load cases and buckling factors", tabulate_combinations(record))),
+        Section("Engineering: reactions", folded=Folded(
+            "resultants of supports by combination, kN", tabulate_reactions(record))),
+        Section("Engineering: section forces", folded=Folded(
+            "means over panels, least and largest of strength combinations",
+            tabulate_forces(record))),
+    ]  # fmt: skip
+    return [one for one in sections if one.folded is None or one.folded.table.rows]
+
+
+def describe_measures(record: EngineeringRecord) -> str:
+    """Return utilization of the final state under the loop's combinations, by each criterion."""
+    words = [
+        f"{name.replace('_', ' ')}: largest panel mean {one.utilization_panel_mean_max:.3g}, "
+        f"largest strip {one.utilization_strip_max:.3g}, {one.panels_above_one} panels above 1"
+        for name, one in record.measures.items()
+    ]
+    return f"Under the loop's own combinations {'; '.join(words)}." if words else ""
+
+
+def tabulate_combinations(record: EngineeringRecord) -> Table:
+    """Return the factors of load cases in each combination, and its buckling factor."""
+    cases = list(record.loads)
+    rows = [
+        (name, purpose.replace("_", " "), *(one.get(case) for case in cases),
+         record.buckling_factor.get(name))
+        for purpose, group in vars(record.combinations).items()
+        for name, one in group.items()
+    ]  # fmt: skip
+    return make_table(("combination", "for", *cases, "buckling factor"), rows)
+
+
+def tabulate_reactions(record: EngineeringRecord) -> Table:
+    """Return the reactions of each support, their thrust and their sum, by combination, in kN."""
+    rows: list[tuple] = []
+    names = next(iter(record.reactions.values()), {})
+    for name in names:
+        forces = {edge: found[name] for edge, found in record.reactions.items()}
+        rows += [(name, edge, *_round(force)) for edge, force in forces.items()]
+        rows.append((name, "sum", *_round(np.sum(list(forces.values()), axis=0).tolist())))
+    header = ("combination", "support", "x [kN]", "y [kN]", "z [kN]", "thrust [kN]")
+    return make_table(header, rows)
+
+
+def _round(force: Sequence[float]) -> list[float]:
+    return [round(value, 1) + 0.0 for value in (*force, float(np.hypot(*force[:2])))]
+
+
+def tabulate_forces(record: EngineeringRecord) -> Table:
+    """Return the least and the largest mean of each section force, and the panels of both."""
+    rows = []
+    for name in COMPONENTS:
+        if f"{name}_min" not in record.panels:
+            continue
+        low, high = (np.array(record.panels[f"{name}_{end}"]) for end in ("min", "max"))
+        unit = "kNm/m" if name.startswith("m") else "kN/m"
+        rows.append((f"{name} [{unit}]", float(low.min()), int(low.argmin()), float(high.max()),
+                     int(high.argmax())))  # fmt: skip
+    return make_table(("section force", "least", "in panel", "largest", "in panel"), rows)
