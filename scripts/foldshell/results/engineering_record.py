@@ -10,7 +10,6 @@ from foldshell.checks.stability import require_factor
 from foldshell.checks.strength import CRITERIA
 from foldshell.checks.strips import utilization_of_strips
 from foldshell.checks.utilization import panel_utilization
-from foldshell.loads.cases import surface_loads
 from foldshell.loads.combinations import engineering_combinations
 from foldshell.records.analysis import AnalysisRecord
 from foldshell.records.analysis_arrays import AnalysisArrays
@@ -29,6 +28,7 @@ from foldshell.results.section_forces import COMPONENTS, average_panels
 from foldshell.settings.checks import Checks
 from foldshell.settings.stage import StageSettings
 from foldshell.shell.held_supports import sum_supports
+from foldshell.shell.nodal_loads import sum_loads
 from foldshell.shell.results import panel_area
 from foldshell.shell.stress import cell_points, evaluate, stress_resultants, surface_stresses
 from foldshell.sizing.iteration import AnalysisCase
@@ -66,7 +66,10 @@ def measure_loop_state(state: EngineeringState, final: AnalysisArrays, count: in
     if state.strips is None or final.displacement is None or final.utilization_cell is None:
         return {}
     moved = final.displacement[:, :count]
-    found = stress_resultants(model.operators, moved, state.thickness, material.youngs_modulus)
+    imposed = None if final.imposed_strain is None else final.imposed_strain[..., :count]
+    found = stress_resultants(
+        model.operators, moved, state.thickness, material.youngs_modulus, imposed
+    )
     flat = cell_points(POINTS)
     force, moment = (evaluate(model.operators, one, flat) for one in (found.force, found.moment))
     stress = surface_stresses(force, moment, state.thickness)
@@ -134,11 +137,9 @@ def _list_factors(state: EngineeringState) -> dict[str, float | None]:
 
 def sum_cases(state: EngineeringState) -> dict[str, tuple[float, ...]]:
     """Return the resultant of each load case over the shell, kN."""
-    model, cases = state.case.model, state.case.cases
-    normal, area = model.operators.geometry.frame[:, 2], model.operators.geometry.area
-    surface = surface_loads(normal, state.thickness, cases, model.self_weight_only)
-    total = np.einsum("e,exk->kx", area, surface)
-    return {one.case: tuple(total[k].tolist()) for k, one in enumerate(cases)}
+    placed, operators = state.case.placed, state.case.model.operators
+    total, _ = sum_loads(operators, placed.at(state.thickness))
+    return {name: tuple(total[:, k].tolist()) for k, name in enumerate(placed.names)}
 
 
 def collect_arrays(

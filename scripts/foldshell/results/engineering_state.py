@@ -85,8 +85,9 @@ def analyse_final_state(
     if short.state == "mechanism":
         return EngineeringState(case, combinations, thickness, short)
     strips = find_strips(model.operators, checks.strip_width)
+    modulus = material.youngs_modulus
     found = stress_resultants(
-        model.operators, short.displacement, thickness, material.youngs_modulus
+        model.operators, short.displacement, thickness, modulus, short.imposed
     )
     creep = 0.0 if material.kind == STEEL else checks.creep_coefficient
     aged, sustained = _age(material, creep), combinations.quasi_permanent
@@ -116,7 +117,7 @@ def _analyse(
     """Analyse with the loop's options; its modes, repeated as they are needed, begin the search."""
     start = None if modes is None else modes[:, np.arange(len(combinations)) % modes.shape[1]]
     return analyse_shell(
-        case.model, thickness, material, case.cases, combinations, case.options, start
+        case.model, thickness, material, case.placed, combinations, case.options, start
     )
 
 
