@@ -9,9 +9,11 @@ from foldshell.exchange.fe_supports import clamp_axes
 from foldshell.exchange.ifc_file import IfcFile
 from foldshell.exchange.model import ExportModel, Support
 from foldshell.exchange.saf import FREE, Member, surface_action
-from foldshell.loads.cases import DOWN, WEIGHT, SurfaceLoad
+from foldshell.loads.cases import WEIGHT, SurfaceLoad
 
 AXES = "XYZ"
+SOURCES = {"permanent": "DEAD_LOAD_G", "wind": "WIND_W", "snow": "SNOW_S"}
+"""Sources of actions by their kind."""
 
 
 def add_analysis(
@@ -24,7 +26,7 @@ def add_analysis(
         file.relate("IfcRelAssignsToProduct", member.name, plate, [surface])
     joined = _add_connections(file, model, topology, members, surfaces)
     joined += _add_points(file, model, topology, members, surfaces)
-    cases = [_add_case(file, case, members, surfaces) for case in model.load_cases]
+    cases = [_add_case(file, model, case, members, surfaces) for case in model.load_cases]
     combinations = _add_combinations(file, model, cases)
     place = file.make("IfcLocalPlacement", None, file.axes((0.0, 0.0, 0.0)))
     analysis = file.root(
@@ -176,10 +178,11 @@ def _upright(model: ExportModel, a: int, b: int) -> tuple[float, float, float]:
     return (1.0, 0.0, 0.0) if steep else (0.0, 0.0, 1.0)
 
 
-def _add_case(file: IfcFile, case: SurfaceLoad, members, surfaces: list[Any]) -> Any:
+def _add_case(
+    file: IfcFile, model: ExportModel, case: SurfaceLoad, members, surfaces: list[Any]
+) -> Any:
     """Add a load case, with an action on each member that carries it."""
-    permanent = case.kind == WEIGHT or case.direction is None
-    source = "DEAD_LOAD_G" if permanent else "LIVE_LOAD_Q" if case.direction == DOWN else "WIND_W"
+    permanent, source = case.action == "permanent", SOURCES.get(case.action, "LIVE_LOAD_Q")
     made = file.root(
         "IfcStructuralLoadCase", case.case, Name=case.case, PredefinedType="LOAD_CASE",
         ActionType="PERMANENT_G" if permanent else "VARIABLE_Q", ActionSource=source,
@@ -191,7 +194,7 @@ def _add_case(file: IfcFile, case: SurfaceLoad, members, surfaces: list[Any]) ->
     actions = []
     for member, surface in zip(members, surfaces, strict=True):
         if member.panel.sized:
-            for axis, value, system, place in surface_action(case, member):
+            for axis, value, system, place in surface_action(model, case, member):
                 key = tuple(1000.0 * value if axis == other else None for other in AXES)
                 if key not in loads:
                     loads[key] = file.make("IfcStructuralLoadPlanarForce", case.case, *key)

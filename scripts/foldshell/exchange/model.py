@@ -84,6 +84,14 @@ class Target:
     sides: tuple[float, ...] = ()
 
 
+@dataclass(frozen=True, eq=False)
+class SpreadLoad(SurfaceLoad):
+    """A case of several loads, or one that is not uniform, by its mean on each facet: `facet_loads`
+    (F, 3) kN per m2 of sheet."""
+
+    facet_loads: np.ndarray = field(default_factory=lambda: np.empty((0, 3)))
+
+
 @dataclass(frozen=True)
 class ExportModel:
     """A sized design. `vertices` (V, 3) m, `facets` (F, 3) counter-clockwise from the positive
@@ -152,6 +160,8 @@ class ExportModel:
 
 def load_on_facets(model: ExportModel, case: SurfaceLoad) -> np.ndarray:
     """Return a case's load on each facet, (F, 3) kN per m2 of sheet."""
+    if isinstance(case, SpreadLoad):
+        return case.facet_loads
     self_weight_only = model.self_weight_only
     return surface_loads(model.normals, model.thickness, [case], self_weight_only)[:, :, 0]
 

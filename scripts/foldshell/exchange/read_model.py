@@ -5,18 +5,19 @@ from pathlib import Path
 
 import numpy as np
 
+from foldshell.exchange.facet_loads import spread_cases
 from foldshell.exchange.model import Crease, ExportModel, Panel, Support, Target
 from foldshell.exchange.panels_of_mesh import Edges, classify, find_edges, find_loops, fit_plane
 from foldshell.files.errors import InputError
 from foldshell.files.whole import Json, read_json
-from foldshell.loads.cases import make_load_cases
+from foldshell.loads.cases import SurfaceLoad, make_load_cases
 from foldshell.records.analysis import DECIDES, AnalysisRecord
 from foldshell.records.analysis_arrays import AnalysisArrays, ClassesArrays
 from foldshell.records.arrays import list_arrays, read_typed_arrays
 from foldshell.records.iteration import read_iteration
 from foldshell.records.plain import to_plain
 from foldshell.records.sheet_arrays import FoldedArrays, MeshArrays
-from foldshell.results.governing import choose_combinations
+from foldshell.results.governing import choose_combinations, compare_without_strains
 from foldshell.settings.crosscheck import GOVERNING
 from foldshell.settings.design import Row
 from foldshell.settings.stage import StageSettings
@@ -43,6 +44,7 @@ def read_export_model(
     vertices, facets, facet_panel = mesh.vertices, mesh.facets, mesh.facet_panel
     edges, plain = find_edges(vertices, facets), to_plain(report)
     panels = _make_panels(mesh, final, classes, checks, edges)
+    settings, cases = _choose_loads(settings, mesh, panels)
     return ExportModel(
         design=design["design"],
         vertices=vertices,
@@ -52,7 +54,7 @@ def read_export_model(
         creases=_make_creases(edges, facet_panel),
         supports=_make_supports(mesh),
         material=settings.material,
-        load_cases=make_load_cases(settings.loads, settings.material.unit_weight),
+        load_cases=cases,
         combinations=settings.combinations.all,
         groups={name: tuple(getattr(settings.combinations, name)) for name in GROUPS},
         compared=_choose_compared(settings, report),
@@ -63,6 +65,19 @@ def read_export_model(
         verdict=report.verdict,
         facts={key: plain[key] for key in _SCALARS if key in plain},
     )
+
+
+def _choose_loads(
+    settings: StageSettings, mesh: MeshArrays, panels: tuple[Panel, ...]
+) -> tuple[StageSettings, tuple[SurfaceLoad, ...]]:
+    """Return one load a case, and the settings with the combinations that these suffice for."""
+    every = make_load_cases(settings.loads, settings.material.unit_weight)
+    sized = np.array([panel.sized for panel in panels])[mesh.facet_panel]
+    thickness = np.array([panel.thickness for panel in panels])[mesh.facet_panel]
+    corners = mesh.vertices[mesh.facets]
+    cases = spread_cases(every, corners, mesh.facet_panel, thickness, sized)
+    known = compare_without_strains(settings.combinations, settings.loads)
+    return settings.changed(known), cases
 
 
 def _read_results(

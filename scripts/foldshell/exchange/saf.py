@@ -11,10 +11,10 @@ from pathlib import Path
 import numpy as np
 
 from foldshell.exchange.fe_supports import clamp_axes
-from foldshell.exchange.model import ExportModel, Panel
+from foldshell.exchange.model import ExportModel, Panel, SpreadLoad
 from foldshell.exchange.options import ExportOptions
 from foldshell.exchange.sheets import write_workbook
-from foldshell.loads.cases import DOWN, WEIGHT, SurfaceLoad
+from foldshell.loads.cases import WEIGHT, SurfaceLoad
 
 GRAVITY = 9.80665
 VERSION = "2.2.0"
@@ -24,12 +24,13 @@ Rows = list[list[object]]
 
 @dataclass(frozen=True)
 class Member:
-    """A planar surface member: its name, panel, vertices in order, and unit normal."""
+    """A planar surface member: its name, panel, vertices in order, unit normal, and facets."""
 
     name: str
     panel: Panel
     vertices: list[int]
     normal: np.ndarray
+    facets: np.ndarray
 
 
 def list_members(model: ExportModel) -> tuple[Member, ...]:
@@ -39,11 +40,13 @@ def list_members(model: ExportModel) -> tuple[Member, ...]:
         if panel.planar:
             area = model.area_vectors[panel.facets].sum(axis=0)
             corners = panel.corners.tolist()
-            members.append(Member(panel.name, panel, corners, area / np.linalg.norm(area)))
+            unit = area / np.linalg.norm(area)
+            members.append(Member(panel.name, panel, corners, unit, panel.facets))
             continue
         for k, facet in enumerate(panel.facets.tolist(), 1):
             corners = model.facets[facet].tolist()
-            members.append(Member(f"{panel.name}.{k}", panel, corners, model.normals[facet]))
+            normal, name = model.normals[facet], f"{panel.name}.{k}"
+            members.append(Member(name, panel, corners, normal, np.array([facet])))
     return tuple(members)
 
 
@@ -177,11 +180,13 @@ def _kind(case: SurfaceLoad) -> tuple[str, str, str, str]:
     """Return action type, load group, load type and duration of a case."""
     if case.kind == WEIGHT:
         return "Permanent", "LG permanent", "Self weight", ""
-    if case.direction is None:
+    if case.action == "permanent":
         return "Permanent", "LG permanent", "Others", ""
-    if case.direction == DOWN:
-        return "Variable", "LG variable", "Static", "Short"
-    return "Variable", "LG wind", "Wind", "Short"
+    if case.action == "snow":
+        return "Variable", "LG variable", "Snow", "Short"
+    if case.action == "wind":
+        return "Variable", "LG wind", "Wind", "Short"
+    return "Variable", "LG variable", "Static", "Short"
 
 
 def _cases(model: ExportModel) -> Rows:
@@ -217,17 +222,25 @@ def _actions(model: ExportModel, members: tuple[Member, ...]) -> Rows:
             continue
         for member in members:
             if member.panel.sized:
-                for axis, value, system, place in surface_action(case, member):
+                for axis, value, system, place in surface_action(model, case, member):
                     rows.append([f"A{len(rows) + 1}", axis, "Standard", "On 2D member", value,
                                  member.name, case.case, system, place])  # fmt: skip
     return [head, *rows]
 
 
-def surface_action(case: SurfaceLoad, member: Member) -> list[tuple[str, float, str, str]]:
+def surface_action(
+    model: ExportModel, case: SurfaceLoad, member: Member
+) -> list[tuple[str, float, str, str]]:
     """Return direction, value kN/m2, coordinate system and location of a case on a member.
 
-    A vertical load on plan area is a projection; the plan share of another is in its value.
+    A vertical load on plan area is a projection; the plan share of another is in its value. What
+    is not uniform is the mean over the member, along the axes.
     """
+    if isinstance(case, SpreadLoad):
+        area = model.areas[member.facets]
+        mean = area @ case.facet_loads[member.facets] / area.sum()
+        return [(axis, float(part), "Global", "Length")
+                for axis, part in zip("XYZ", mean, strict=True) if part]  # fmt: skip
     if case.direction is None:
         return [("Z", -case.value, "Local", "Length")]
     plan = case.area == "plan_abs"

@@ -10,7 +10,7 @@ from pathlib import Path
 
 from foldshell.exchange.fe_mesh import QuadMesh, divide_facets
 from foldshell.exchange.fe_supports import held_nodes, held_rotations, spring_nodes
-from foldshell.exchange.model import ExportModel
+from foldshell.exchange.model import ExportModel, SpreadLoad
 from foldshell.exchange.options import ExportOptions
 from foldshell.files.errors import InputError
 from foldshell.files.whole import atomic_path
@@ -124,7 +124,7 @@ def _materials(model: ExportModel) -> Iterator[tuple[str, list[Row]]]:
     yield "MATERIAL PROPERTIES 02 - BASIC MECHANICAL PROPERTIES", [
         {"Material": "SHELL", "UnitWeight": material.unit_weight,
          "UnitMass": material.unit_weight / GRAVITY, "E1": material.youngs_modulus, "G12": shear,
-         "U12": material.poissons_ratio, "A1": 1e-5}
+         "U12": material.poissons_ratio, "A1": material.thermal_expansion}
     ]  # fmt: skip
     yield "AREA SECTION PROPERTIES", [
         {"Section": panel.name, "Material": "SHELL", "MatAngle": 0, "AreaType": "Shell",
@@ -195,7 +195,14 @@ def _area_loads(model: ExportModel, mesh: QuadMesh) -> Iterator[Row]:
     for case in model.load_cases:
         if case.kind == WEIGHT or not case.value:
             continue
+        spread = isinstance(case, SpreadLoad)
         for area, facet in enumerate(mesh.facet.tolist(), 1):
+            if spread:
+                for axis, value in zip("XYZ", case.facet_loads[facet].tolist(), strict=True):
+                    if value:
+                        yield {"Area": area, "LoadPat": case.case, "CoordSys": "GLOBAL",
+                               "Dir": axis, "UnifLoad": value}  # fmt: skip
+                continue
             if self_weight_only[facet]:
                 continue
             share = abs(float(normal[facet])) if case.area == "plan_abs" else 1.0

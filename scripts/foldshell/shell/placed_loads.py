@@ -115,8 +115,26 @@ def place_loads(
         in one sentence, for a load whose zone meets no panel, or no support.
     """
     sheet = describe_sheet(operators, self_weight_only)
+    fixed, weight = place_on_sheet(sheet, operators.mesh.order, cases)
+    names = list_cases(cases)
+    return PlacedLoads(
+        names,
+        fixed,
+        weight,
+        _place_temperatures(cases, names, sheet),
+        _place_settlements(cases, names, sheet, operators, held),
+    )
+
+
+def place_on_sheet(
+    sheet: SheetElements, order: int, cases: Sequence[SurfaceLoad]
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return `fixed` and `weight` of `PlacedLoads` for elements of an order.
+
+    Raises `ValueError`. In kN, m.
+    """
     names, shape = list_cases(cases), sheet.normal.shape
-    placed = [_place(load, sheet, operators.mesh.order) for load in cases]
+    placed = [_place(load, sheet, order) for load in cases]
     points = max((len(size[0]) for size in placed if size is not None), default=1)
     fixed = np.zeros((len(sheet.area), points, 3, len(names)))
     weight = np.zeros((*shape, len(names)))
@@ -128,13 +146,7 @@ def place_loads(
             weight[chosen, :, column] += load.value * along[chosen]
         elif size is not None:
             fixed[..., column] += (load.value * size)[:, :, None] * along[:, None]
-    return PlacedLoads(
-        names,
-        fixed,
-        weight,
-        _place_temperatures(cases, names, sheet),
-        _place_settlements(cases, names, sheet, operators, held),
-    )
+    return fixed, weight
 
 
 def _direct(load: SurfaceLoad, sheet: SheetElements) -> np.ndarray:
@@ -196,7 +208,8 @@ def integrate_pieces(
     (E, n) without unit."""
     points, weights = triangle_quadrature(order + 1)
     place = np.einsum("qc,tcx->tqx", barycentric(points), pieces.corners)
-    shape = lagrange_basis(order, place.reshape(-1, 2))[0].reshape(*place.shape[:2], -1)
+    shape = lagrange_basis(order, place.reshape(-1, 2))[0]
+    shape = shape.reshape(*place.shape[:2], shape.shape[1])
     weight = pieces.share[:, None] * weights
     if variation is not None:
         own = sheet.corners[pieces.owner][..., variation.axis]
@@ -217,7 +230,8 @@ def _spread_line(load: SurfaceLoad, sheet: SheetElements, order: int) -> np.ndar
     lines = find_lines(load, sheet)
     xi, weights = edge_quadrature(order + 1)
     place = lines.ends[:, None, 0] + xi[:, None] * (lines.ends[:, 1] - lines.ends[:, 0])[:, None]
-    shape = lagrange_basis(order, place.reshape(-1, 2))[0].reshape(*place.shape[:2], -1)
+    shape = lagrange_basis(order, place.reshape(-1, 2))[0]
+    shape = shape.reshape(*place.shape[:2], shape.shape[1])
     values = lines.length[:, None] * np.einsum("q,tqn->tn", weights, shape)
     integral = sum_rows(lines.owner, values, len(sheet.area)) / sheet.area[:, None]
     return integral @ quadrature_table(order)[2].T
