@@ -129,9 +129,9 @@ def place_loads(
 def place_on_sheet(
     sheet: SheetElements, order: int, cases: Sequence[SurfaceLoad]
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return `fixed` and `weight` of `PlacedLoads` for elements of an order.
+    """Return `fixed` (E, Q, 3, C) kN/m2 and `weight` (E, 3, C) kN/m3 of `PlacedLoads`.
 
-    Raises `ValueError`. In kN, m.
+    `order` is that of the elements. Raises `ValueError`.
     """
     names, shape = list_cases(cases), sheet.normal.shape
     placed = [_place(load, sheet, order) for load in cases]
