@@ -47,11 +47,11 @@ REACTION_COLUMNS = (
 def write_engineering(
     path: str | Path, title: str, record: EngineeringRecord, arrays: EngineeringArrays
 ) -> None:
-    """Write the workbook of an engineering verdict."""
+    """Write the workbook of an engineering verdict; reactions of vertices are in design.xlsx."""
     with create_workbook(path, f"Engineering checks of {title}") as (book, styles):
         add_checks(book, styles, record, f"Engineering checks of {title}")
         add_panels(book, styles, record)
-        add_reactions(book, styles, record, arrays)
+        add_reactions(book, styles, record, arrays, vertices=False)
         add_combinations(book, styles, list_groups(record), record.loads)
 
 
@@ -166,9 +166,13 @@ def _span(column: int, first: int, count: int) -> str:
 
 
 def add_reactions(
-    book: Any, styles: Styles, record: EngineeringRecord, arrays: EngineeringArrays
+    book: Any,
+    styles: Styles,
+    record: EngineeringRecord,
+    arrays: EngineeringArrays,
+    vertices: bool = True,
 ) -> None:
-    """Add the sheet `reactions`: of edges with totals that close, then of vertices."""
+    """Add the sheet `reactions`: of edges with totals that close, then of `vertices`."""
     if arrays.edge_reaction is None:
         return
     sheet = add_sheet(book, "reactions", landscape=False)
@@ -176,7 +180,7 @@ def add_reactions(
     row = write_table(sheet, styles, 0, REACTION_COLUMNS, [])
     for column, name in enumerate(names):
         row = _add_combination(sheet, styles, row, name, column, record, arrays)
-    for column, name in enumerate(names):
+    for column, name in enumerate(names if vertices else ()):
         for place, at, force in zip(
             arrays.vertex, arrays.vertex_place, arrays.vertex_reaction[..., column], strict=True
         ):
