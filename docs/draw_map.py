@@ -35,7 +35,7 @@ RUN = (
     Step("start", "00/thickness.xlsx", "workbook"),
     Step("analyse", "NN/analysis.json", "shell, checks"),
     Step("resize", "NN+1/thickness.xlsx", "sizing"),
-    Step("size", "final.json, design.xlsx", "results"),
+    Step("size", "final.json", "results"),
 )
 AFTER = (
     Step("group", "classes.json", "sizing"),

@@ -38,6 +38,12 @@ QUANTITIES = {
     "flat_foldability_max_rad": "geometry",
 }
 """What error a quantity inherits."""
+BY_STRIPS = {
+    "utilization_mean": "utilization_strip_mean",
+    "utilization_variation": "utilization_strip_variation",
+    "utilization_panel_mean_max": "utilization_strip_max",
+}
+"""Measures that stand in for others where a loop sized by strips."""
 
 
 def describe_quantity(quantity: str) -> Entry | None:
@@ -70,8 +76,12 @@ class DesignResult:
     warning: str | None = None
 
     def measure(self, quantity: str) -> float | None:
-        """Return a quantity by its name, None where it was not measured."""
-        value = getattr(self.values, quantity, None)
+        """Return a quantity by its name, None where it was not measured.
+
+        Of a loop that sized by strips the utilization is that of strips.
+        """
+        value = getattr(self.values, BY_STRIPS.get(quantity, ""), None)
+        value = getattr(self.values, quantity, None) if value is None else value
         return getattr(self.quality, quantity, None) if value is None else value
 
     @property

@@ -27,7 +27,9 @@ def judge_buckling(design_results: Sequence[DesignResult], comparer: Comparer) -
     designs = [_with_strength(one) for one in select_folded(design_results)]
     findings = []
     for one in designs:
-        least = replace(one.values, utilization_mean=comparer.utilization_min)
+        least = replace(
+            one.values, utilization_mean=comparer.utilization_min, utilization_strip_mean=None
+        )
         limit = replace(one, values=least, errors=NO_ERRORS)
         found = comparer.compare(LOW, limit, one, "utilization_mean")
         names = "limit, utilization_mean"
@@ -47,7 +49,7 @@ NO_ERRORS = {name: (0.0, 0.0) for name in ("displacement", "utilization", "buckl
 
 def _with_strength(design_result: DesignResult) -> DesignResult:
     """Add the load factor at which the mean of a panel reaches the strength."""
-    highest = design_result.values.utilization_panel_mean_max
+    highest = design_result.measure("utilization_panel_mean_max")
     strength = 1 / highest if highest else None
     return replace(design_result, values=replace(design_result.values, strength_factor=strength))
 
@@ -67,7 +69,7 @@ def find_bindings(design_result: DesignResult, comparer: Comparer) -> list[str]:
         return [values.state]
     if values.displacement > 0.9 * design_result.row.span_m / comparer.displacement_span_over:
         names.append("displacement")
-    if values.utilization_panel_mean_max > 0.9:
+    if design_result.measure("utilization_panel_mean_max") > 0.9:
         names.append("utilization of a panel")
     if values.panels_at_bound == design_result.panel_count:
         names.append("least thickness in every panel")

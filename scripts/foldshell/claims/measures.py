@@ -19,6 +19,9 @@ SCALARS = (
     "panels_at_bound",
 )
 
+STRIP = "strip"
+"""The measure of a loop that sizes by strips."""
+
 
 @dataclass(frozen=True)
 class Layout:
@@ -73,6 +76,7 @@ def measure_state(
         **{name: getattr(report, name) for name in SCALARS},
         panel_area=float(measure_panel_areas(mesh, layout).mean()),
         **measure_utilization(mesh, layout, arrays, measure),
+        **measure_strips(mesh, layout, arrays, measure),
         **measure_edge_displacement(mesh, layout, arrays.translations, count),
     )
 
@@ -100,6 +104,25 @@ def measure_utilization(
         "utilization_variation": weighted_variation(used, measure_panel_areas(mesh, layout)),
         "above_one": int(above.sum()),
         "above_one_at_free_edge": int((above & layout.free_edge_panels).sum()),
+    }
+
+
+def measure_strips(
+    mesh: Mapping[str, np.ndarray], layout: Layout, arrays: AnalysisArrays, measure: str
+) -> dict[str, float]:
+    """Return how panels are used by strips where a loop sized by them, nothing else.
+
+    `mesh` are the arrays of mesh.npz. Mean and variation of the panels' own largest strips stand
+    where those of points stand else.
+    """
+    used = arrays.utilization(measure) if measure == STRIP else None
+    if used is None:
+        return {}
+    area = measure_panel_areas(mesh, layout)
+    return {
+        "utilization_strip_max": float(used.max()),
+        "utilization_strip_mean": float(area @ used / area.sum()),
+        "utilization_strip_variation": weighted_variation(used, area),
     }
 
 

@@ -54,6 +54,16 @@ class Measures(Geometry):
     above_one_at_free_edge: int | None = entry("those of them along a free edge", COUNT)
     displacement_edge: float | None = entry("the same on panels along free edges", "m", shown="mm")
     displacement_inner: float | None = entry("the same on all other panels", "m", shown="mm")
+    utilization_strip_max: float | None = entry(
+        "largest utilization of a facet or strip as a mean, where the loop sizes by it", "-",
+        left_out=True,
+    )  # fmt: skip
+    utilization_strip_mean: float | None = entry(
+        "area mean over the panels of the largest of their strips, likewise", "-", left_out=True
+    )
+    utilization_strip_variation: float | None = entry(
+        "its standard deviation over its mean, by area, likewise", "-", left_out=True
+    )
     strength_factor: float | None = entry(
         "load factor at which the mean of a panel reaches the strength", "-", left_out=True
     )

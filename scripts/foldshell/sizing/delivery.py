@@ -81,3 +81,17 @@ def complete_delivered(
     more = {name: getattr(found, name) for name in ("criteria", "model_warnings")}
     bound = found.buckling_factor_bound
     return replace(record, **known, **more, buckling_factor_bound=bound), fields
+
+
+def analyse_delivered(
+    case: AnalysisCase, span: float, record: AnalysisRecord, arrays: AnalysisArrays
+) -> tuple[AnalysisRecord, AnalysisArrays]:
+    """Analyse the thicknesses of final.json anew, under what a case has changed; span m.
+
+    The verdict is `converged` where every limit is still met, `not_converged` where one is not.
+    """
+    task = IterationTask(record.iteration + 1, span, arrays.thickness, record, arrays)
+    found, fields = case.run(task, alone=True)
+    sound = "converged" if meets_limits(found) else "not_converged"
+    verdict = "unstable" if found.state in ("unstable", "mechanism") else sound
+    return replace(found, iteration=record.iteration, verdict=verdict), fields
