@@ -5,15 +5,19 @@ import platform
 from importlib.metadata import distributions
 from pathlib import Path
 
+from foldshell.shell.blas_kernels import name_kernels
+
 
 def describe_machine() -> dict[str, object]:
-    """Return processor, cores, memory (MB), system and versions of all installed packages."""
+    """Return processor, cores, memory (MB), system, kernels of the BLAS under CHOLMOD, and versions
+    of all installed packages."""
     return {
         "processor": _read_field("/proc/cpuinfo", "model name") or platform.processor(),
         "architecture": platform.machine(),
         "cores": os.cpu_count(),
         "memory_mb": _memory_mb(),
         "system": f"{platform.system()} {platform.release()}",
+        "blas_kernels": name_kernels(),
         "libc": " ".join(platform.libc_ver()),
         "python": platform.python_version(),
         "packages": {

@@ -7,12 +7,18 @@ from importlib.metadata import version
 from pathlib import Path
 
 from foldshell.files.errors import InputError
+from foldshell.shell.blas_kernels import name_kernels
 
 ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 """Jobs run side by side; threads of their own would only wait for each other."""
 
-KEEP_MEMORY = {"MALLOC_MMAP_THRESHOLD_": str(4 * 10**9), "MALLOC_TRIM_THRESHOLD_": str(4 * 10**9)}
-"""Freed memory is kept for the next array: taking it anew costs a fifth of an analysis (glibc)."""
+KEEP_MEMORY = {
+    "MALLOC_MMAP_THRESHOLD_": str(4 * 10**9),
+    "MALLOC_TRIM_THRESHOLD_": str(4 * 10**9),
+    "MALLOC_TOP_PAD_": str(2**26),
+}
+"""Freed memory is kept for the next array: taking it anew costs a fifth of an analysis (glibc); and
+it is taken in large pieces."""
 
 
 SMALL_PAGES = {"NUMPY_MADVISE_HUGEPAGE": "0"}
@@ -59,5 +65,7 @@ def prepare_environment(environment: MutableMapping[str, str]) -> None:
 
 
 def list_versions(packages: Iterable[str]) -> dict[str, str]:
-    """Return the versions of Python and of installed packages, by name."""
-    return {"python": platform.python_version()} | {name: version(name) for name in packages}
+    """Return the versions of Python and of installed packages, by name, and the kernels that the
+    BLAS under CHOLMOD runs on this processor: last digits may hang on them."""
+    found = {"python": platform.python_version()} | {name: version(name) for name in packages}
+    return found | {"kernels of CHOLMOD's BLAS": name_kernels() or "unknown"}

@@ -8,6 +8,8 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
+from foldshell.shell.blas_kernels import name_kernels
+
 PACKAGES = ("snakemake", "numpy", "scipy", "cvxopt", "vtk", "meshio", "XlsxWriter", "openpyxl",
             "pillow", "matplotlib", "Jinja2")  # fmt: skip
 
@@ -51,7 +53,7 @@ def _git(project: str | Path, *words: str) -> str:
 
 
 def describe_machine() -> dict[str, str]:
-    """Return processor, cores, memory and system, as far as the system tells them."""
+    """Return processor, cores, memory, system and BLAS kernels, as far as they are known."""
     machine = {"processor": _processor(), "cores": str(os.cpu_count() or "")}
     try:
         memory = os.sysconf("SC_PAGE_SIZE") * os.sysconf("SC_PHYS_PAGES")
@@ -59,6 +61,7 @@ def describe_machine() -> dict[str, str]:
     except (AttributeError, ValueError, OSError):
         pass
     machine["system"] = f"{platform.system()} {platform.release()}".strip()
+    machine["kernels of CHOLMOD's BLAS"] = name_kernels()
     return {name: words for name, words in machine.items() if words}
 
 

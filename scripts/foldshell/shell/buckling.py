@@ -56,6 +56,7 @@ def find_buckling_factors(
     start: np.ndarray | None = None,
     effort: Effort = USUAL,
     iterations_max: int = 60,
+    apply_mixed: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None,
 ) -> BucklingResult:
     """Find the least positive buckling factor of each combination.
 
@@ -66,25 +67,30 @@ def find_buckling_factors(
     factors : (cases, c) combination factors
     start : (size, c) modes of a similar structure to begin with
     effort : how it begins and when it ends; without random vectors only if there is a `start`
+    apply_mixed : maps (size, k) and combination factors (cases, k) to K_g of each column's own
+        combination times it, (size, k); by default by `apply_cases`
 
     Factors without unit.
     """
     first, which, ratio = _proportional_columns(factors)
     begin = None if start is None else start[:, first]
     cases = factors[:, first]
-    found = _find_distinct(solve, apply_cases, cases, size, begin, effort, iterations_max)
+    mixed = apply_mixed or _mix_cases(apply_cases)
+    space = _Subspace(solve, apply_cases, mixed, len(cases), size)
+    found = _find_distinct(space, cases, begin, effort, iterations_max)
     with np.errstate(divide="ignore"):
         values = np.where(ratio > 0, found.factors[which] / ratio, np.inf)
     return replace(found, factors=values, modes=found.modes[:, which], change=found.change[which])
 
 
-def _find_distinct(
-    solve, apply_cases, factors, size, start, effort: Effort, iterations_max
-) -> BucklingResult:
+def _mix_cases(apply_cases) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
+    return lambda vectors, factors: np.einsum("asc,ac->sc", apply_cases(vectors), factors)
+
+
+def _find_distinct(space, factors, start, effort: Effort, iterations_max) -> BucklingResult:
     """Find the factors of combinations none of which is a multiple of another."""
-    space = _Subspace(solve, apply_cases, len(factors), size)
-    space.extend(_begin(apply_cases, factors, size, start, effort))
-    pairs = min(max(effort.pairs, -(-effort.followed // factors.shape[1])), size)
+    space.extend(_begin(space, factors, start, effort))
+    pairs = min(max(effort.pairs, -(-effort.followed // factors.shape[1])), space.size)
     change = np.full((pairs, factors.shape[1]), np.inf)
     before = np.zeros_like(change)
     for number in range(iterations_max):
@@ -108,13 +114,11 @@ def _find_distinct(
     return BucklingResult(result, modes, change[0], space.solves, done)
 
 
-def _begin(apply_cases, factors, size, start, effort: Effort) -> np.ndarray:
+def _begin(space, factors, start, effort: Effort) -> np.ndarray:
     """Return the forces (size, k) with which the search begins."""
     count = effort.random_vectors if start is not None else max(effort.random_vectors, 1)
-    begin = np.random.default_rng(START_SEED).standard_normal((size, count))
-    if start is None:
-        return begin
-    return np.hstack([begin, _own_images(apply_cases, start, factors)])
+    begin = np.random.default_rng(START_SEED).standard_normal((space.size, count))
+    return begin if start is None else np.hstack([begin, -space.apply_mixed(start, factors)])
 
 
 def _expect_more(before: np.ndarray, values: np.ndarray) -> np.ndarray:
@@ -149,19 +153,15 @@ def _proportional_columns(factors: np.ndarray) -> tuple[np.ndarray, np.ndarray, 
     return distinct, which, length / np.where(length[first] > 0, length[first], 1)
 
 
-def _own_images(apply_cases, vectors: np.ndarray, factors: np.ndarray) -> np.ndarray:
-    """Return -K_g(N_c) x_c for each column c, (size, c)."""
-    return -np.einsum("asc,ac->sc", apply_cases(vectors), factors)
-
-
 class _Subspace:
     """A K-orthonormal basis with K_g of every load case projected on it."""
 
-    def __init__(self, solve, apply_cases, cases: int, size: int) -> None:
-        self._solve, self._apply = solve, apply_cases
-        # room for more vectors than most searches need, one vector per row: basis, K times it, and
-        # K_g of every case times it
-        self._room = np.empty((2 + cases, ROOM, size))
+    def __init__(self, solve, apply_cases, apply_mixed, cases: int, size: int) -> None:
+        self._solve, self._apply, self.apply_mixed, self.size = (
+            solve, apply_cases, apply_mixed, size
+        )  # fmt: skip
+        # room for more vectors than most searches need, one vector per row: basis, and K times it
+        self._room = np.empty((2, ROOM, size))
         self._count = 0
         self._projected = np.empty((cases, 0, 0))
         self.solves = 0
@@ -172,10 +172,7 @@ class _Subspace:
 
     def images(self, coefficients: np.ndarray, factors: np.ndarray) -> np.ndarray:
         """Return -K_g(N) x (size, n) of vectors with coefficients (k, n), factors (cases, n)."""
-        total = 0.0
-        for case, share in enumerate(factors, start=2):
-            total = total - (coefficients * share).T @ self._room[case, : self._count]
-        return total.T
+        return -self.apply_mixed(self.combine(coefficients), factors)
 
     def extend(self, forces: np.ndarray) -> np.ndarray:
         """Add Z = K^-1 forces to the basis; return Z as solved."""
@@ -201,7 +198,6 @@ class _Subspace:
         self._room[0, old:new], self._room[1, old:new] = vectors, forces
         self._count = new
         applied = self._apply(vectors.T)
-        self._room[2:, old:new] = applied.transpose(0, 2, 1)
         added = np.matmul(self._room[0, :new], applied)
         grown = np.zeros((len(self._projected), new, new))
         grown[:, :old, :old] = self._projected

@@ -15,6 +15,8 @@ from functools import lru_cache
 
 import numpy as np
 
+from foldshell.shell.blas_kernels import choose_kernels
+
 COMMON_BYTES = 1 << 16
 """More than any release's cholmod_common, which is about 2.7 kB."""
 
@@ -154,6 +156,7 @@ def open_library() -> CholmodLibrary | None:
     try:
         from cvxopt import cholmod
 
+        choose_kernels()
         return CholmodLibrary(ctypes.CDLL(cholmod.__file__))
     except (ImportError, OSError, AttributeError):
         return None

@@ -6,7 +6,6 @@ Slopes are taken along the two directions of the reference triangle, the same fo
 and N is pulled back to them.
 """
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -68,37 +67,54 @@ def apply_geometric(
     return gather_forces(mesh, element)
 
 
-def make_geometric_products(
-    operators: ShellOperators, force: np.ndarray, dofs: np.ndarray
-) -> Callable[[np.ndarray], np.ndarray]:
-    """Return what maps vectors (size, k) to K_g of each column of N times them, (c, size, k).
+class GeometricProducts:
+    """K_g of every case, kept as one matrix per element and case, which acts on x, y and z alike.
 
-    The same as `apply_geometric` for forces that stay while vectors change: K_g is kept as one
-    matrix per element and case, which acts on x, y and z alike.
+    The same as `apply_geometric` for forces that stay while vectors change.
 
     Parameters
     ----------
+    operators : of the mesh
     force : (E, 3, m, c) kN/m
     dofs : (size,) degree of freedom of each row of the vectors; all others are zero
     """
-    mesh, matrices = operators.mesh, _element_matrices(operators, force)
-    nodes, cases = len(mesh.nodes), len(matrices)
-    moving = np.flatnonzero(dofs < 3 * nodes)
-    translations = dofs[moving]
 
-    def multiply(vectors: np.ndarray) -> np.ndarray:
+    def __init__(self, operators: ShellOperators, force: np.ndarray, dofs: np.ndarray) -> None:
+        self._mesh, self._matrices = operators.mesh, _element_matrices(operators, force)
+        self._moving = np.flatnonzero(dofs < 3 * len(self._mesh.nodes))
+        self._translations = dofs[self._moving]
+
+    def __call__(self, vectors: np.ndarray) -> np.ndarray:
         """Return K_g of each case times vectors (size, k), (cases, size, k)."""
-        count = vectors.shape[1]
-        full = np.zeros((3 * nodes, count))
-        full[translations] = vectors[moving]
-        local = full.reshape(nodes, 3 * count)[mesh.elements]
-        result = np.zeros((cases, len(vectors), count))
-        for case, matrix in enumerate(matrices):
-            pushed = mesh.node_sum.add(np.matmul(matrix, local).reshape(-1, 3 * count))
-            result[case, moving] = pushed.reshape(-1, count)[translations]
+        mesh, count = self._mesh, vectors.shape[1]
+        local = self._gather(vectors).reshape(len(mesh.nodes), 3 * count)[mesh.elements]
+        result = np.zeros((len(self._matrices), *vectors.shape))
+        for own, matrix in zip(result, self._matrices, strict=True):
+            self._scatter(np.matmul(matrix, local).reshape(-1, 3 * count), own)
         return result
 
-    return multiply
+    def mix(self, vectors: np.ndarray, factors: np.ndarray) -> np.ndarray:
+        """Return K_g of the combination (cases, k) of each column times it, (size, k)."""
+        mesh, count = self._mesh, vectors.shape[1]
+        moved = self._gather(vectors).reshape(-1, 3, count).transpose(2, 0, 1)
+        flat = self._matrices.reshape(len(self._matrices), -1)
+        shape = self._matrices.shape[1:]
+        element = np.empty((shape[0], shape[1], 3, count))
+        for column, share in enumerate(factors.T):
+            matrix = (share @ flat).reshape(shape)
+            element[..., column] = np.matmul(matrix, moved[column][mesh.elements])
+        result = np.zeros(vectors.shape)
+        self._scatter(element.reshape(-1, 3 * count), result)
+        return result
+
+    def _gather(self, vectors: np.ndarray) -> np.ndarray:
+        full = np.zeros((3 * len(self._mesh.nodes), vectors.shape[1]))
+        full[self._translations] = vectors[self._moving]
+        return full
+
+    def _scatter(self, pushed: np.ndarray, result: np.ndarray) -> None:
+        total = self._mesh.node_sum.add(pushed).reshape(-1, result.shape[1])
+        result[self._moving] = total[self._translations]
 
 
 def _element_matrices(operators: ShellOperators, force: np.ndarray) -> np.ndarray:

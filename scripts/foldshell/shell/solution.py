@@ -9,7 +9,7 @@ import numpy as np
 
 from foldshell.shell.buckling import BucklingResult, find_buckling_factors
 from foldshell.shell.effort import Effort
-from foldshell.shell.geometric import apply_geometric, make_geometric_products
+from foldshell.shell.geometric import GeometricProducts, apply_geometric
 from foldshell.shell.linear_solver import Factor, factorise
 from foldshell.shell.near_null import find_near_null_vector, is_singular
 from foldshell.shell.second_order import SecondOrderResult, solve_second_order
@@ -82,7 +82,7 @@ class Solution:
         imposed = None if strains is None else strains @ mixing
         forces = self.forces(first_order_cases @ mixing, imposed)
         dofs = self._dofs
-        multiply = make_geometric_products(self.model.operators, forces, dofs)
+        multiply = GeometricProducts(self.model.operators, forces, dofs)
         # modes are kept in ascending order of freedoms, the factor works in its own
         place = self.model.pattern.ascending
         if start is not None:
@@ -90,7 +90,9 @@ class Solution:
             own[place] = start
             start = own
         solve, size = self._factor.solve, len(dofs)
-        found = find_buckling_factors(solve, multiply, factors, size, start, effort)
+        found = find_buckling_factors(
+            solve, multiply, factors, size, start, effort, apply_mixed=multiply.mix
+        )
         return replace(found, modes=found.modes[place])
 
     def second_order(

@@ -14,7 +14,7 @@ from foldshell.shell.analysis import analyse_shell, build_model
 from foldshell.shell.assembly import assemble_stiffness, find_pattern, translation_dofs
 from foldshell.shell.buckling import find_buckling_factors
 from foldshell.shell.cholmod_library import open_library
-from foldshell.shell.geometric import apply_geometric, make_geometric_products
+from foldshell.shell.geometric import GeometricProducts, apply_geometric
 from foldshell.shell.linear_solver import (
     CholmodFactor,
     CvxoptFactor,
@@ -62,9 +62,13 @@ def test_applied_and_kept_geometric_stiffness_agree():
     displacement = rng.standard_normal((mesh.dof_count, 2))
     applied = apply_geometric(operators, force, displacement)
     dofs = np.random.default_rng(3).permutation(mesh.dof_count)
-    products = make_geometric_products(operators, force, dofs)(displacement[dofs])
+    kept = GeometricProducts(operators, force, dofs)
+    products = kept(displacement[dofs])
     for case in range(2):
         assert products[case][:, case] == pytest.approx(applied[dofs, case], abs=1e-11)
+    factors = np.array([[1.2, 0.0], [-0.5, 2.0]])
+    mixed = apply_geometric(operators, force @ factors, displacement)[dofs]
+    assert kept.mix(displacement[dofs], factors) == pytest.approx(mixed, abs=1e-11)
 
 
 @pytest.mark.parametrize("order", [2, 3, 5])
