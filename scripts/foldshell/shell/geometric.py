@@ -94,7 +94,10 @@ class GeometricProducts:
         return result
 
     def mix(self, vectors: np.ndarray, factors: np.ndarray) -> np.ndarray:
-        """Return K_g of the combination (cases, k) of each column times it, (size, k)."""
+        """Return K_g of the combination (cases, k) of each column times it, (size, k).
+
+        Factors without unit; vectors and results in any, and kN/m times it.
+        """
         mesh, count = self._mesh, vectors.shape[1]
         moved = self._gather(vectors).reshape(-1, 3, count).transpose(2, 0, 1)
         flat = self._matrices.reshape(len(self._matrices), -1)
