@@ -60,6 +60,9 @@ for STAGE in [*STAGES, "manifest", "figures", "report", "sheets", "archive", "ex
     include: f"{RULES}/{STAGE}.smk"
 
 
+include: f"{RULES}/{'no_exploration' if SETTINGS.exploration == 'none' else 'explore'}.smk"
+
+
 for TAG in sorted({tag for design in DESIGNS for tag in design.tags}):
 
     rule:

@@ -11,6 +11,8 @@ from foldshell.files.whole import SECONDS, hash_data, hash_file, held_back
 
 LISTS = ".snakemake/"
 """Where lists of hashes stand that Snakemake takes for inputs."""
+GATHERED = ("studies", "explorations")
+"""Folders whose folders gather what is about several designs."""
 CODE = "library"
 """The name of the input that lists the library files of a rule with their hashes."""
 
@@ -71,13 +73,13 @@ def name_job(rule: str, wildcards: Mapping[str, str], home: Path) -> str:
 def find_home(outputs: list[str], wildcards: Mapping[str, str]) -> Path:
     """Return the folder of the design or study that a job's outputs belong to.
 
-    It is the one with the name of the design; else the one below `studies`; else that of the first
-    output.
+    It is the one with the name of the design; else the one below `studies` or `explorations`; else
+    that of the first output.
     """
     first = Path(outputs[0])
     design = wildcards.get("design")
     for folder in first.parents:
-        if folder.name == design or folder.parent.name == "studies":
+        if folder.name == design or folder.parent.name in GATHERED:
             return folder
     return first.parent
 

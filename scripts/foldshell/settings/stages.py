@@ -35,6 +35,9 @@ STAGES: dict[str, tuple[type, ...]] = {
 }
 """Groups that each stage takes; a setting with `stages` of its own goes to those alone."""
 
+SEARCHED = STAGES["study"]
+"""Groups that a search of the pattern takes."""
+
 DECIDING = ("pattern", "fold", "mesh", "start", "analyse", "resize")
 """Stages whose settings decide the final state of a design."""
 

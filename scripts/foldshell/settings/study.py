@@ -49,6 +49,8 @@ class Figures(Group):
 
 AUTO = "auto"
 
+NO_EXPLORATION = "none"
+
 LOAD_TABLE = "config/loads.tsv"
 
 
@@ -77,6 +79,11 @@ class Settings(Group):
         "docs/loads.md says more.",
     )
     load_sets: LoadSets = setting({}, internal=True, meaning="The sets that the table holds.")
+    exploration: str = setting(
+        NO_EXPLORATION,
+        meaning="File of the exploration that the target `explore` runs; config/explorations/ has "
+        "some, docs/explore.md says what stands in them.",
+    )
     study: str = setting(
         "table1",
         meaning="Tag of the designs that the default target runs; what is said over all of them "

@@ -1,0 +1,70 @@
+# What follows a search: the best designs by the ordinary rules, their slopes, page and manifest.
+
+
+rule confirm:
+    input:
+        selected=rules.explored.output.selected,
+        library=code_inputs("confirm"),
+    output:
+        summary=f"{EXPLORED}/confirmed.csv",
+    log:
+        f"{RESULTS}/logs/confirm/{EXPLORATION.name}.log",
+    threads: workflow.cores
+    conda:
+        "../envs/foldshell.yaml"
+    params:
+        snakefile=f"{HOME}/Snakefile",
+        folder=f"{EXPLORED}/confirmed",
+        rule=EXPLORATION.search.rule,
+        factor=EXPLORATION.limits.buckling_factor_min,
+        config=parse_group(type(SETTINGS), config),
+    message:
+        "exploration " + EXPLORATION.name + ": the best by the ordinary rules"
+    script:
+        "../scripts/confirm.py"
+
+
+rule explore_page:
+    input:
+        candidates=rules.explored.input.candidates,
+        table=rules.explored.output.table,
+        confirmed=rules.confirm.output.summary,
+        assets=assets(),
+        library=code_inputs("explore_page"),
+    output:
+        page=f"{EXPLORED}/explore.html",
+    log:
+        f"{RESULTS}/logs/explore_page/{EXPLORATION.name}.log",
+    conda:
+        "../envs/foldshell.yaml"
+    params:
+        exploration=SEARCH["exploration"],
+    message:
+        "exploration " + EXPLORATION.name + ": page"
+    script:
+        "../scripts/explore_page.py"
+
+
+rule explore_manifest:
+    input:
+        rules.explore_page.output,
+        library=code_inputs("manifest"),
+    output:
+        manifest=f"{EXPLORED}/manifest.json",
+    log:
+        f"{RESULTS}/logs/explore_manifest/{EXPLORATION.name}.log",
+    conda:
+        "../envs/foldshell.yaml"
+    params:
+        title=EXPLORATION.name,
+        deciding_rules=["propose", "candidate"],
+        code=str(HOME),
+    message:
+        "exploration " + EXPLORATION.name + ": manifest"
+    script:
+        "../scripts/manifest.py"
+
+
+rule explore:
+    input:
+        rules.explore_manifest.output,

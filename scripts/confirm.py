@@ -1,0 +1,54 @@
+"""Rule confirm: the best candidates of an exploration as ordinary designs, sized and checked."""
+
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import yaml
+
+from foldshell.engine.job import run_job
+from foldshell.files.errors import InputError
+from foldshell.files.whole import atomic_path, write_text_if_changed
+from foldshell.settings.stage import Plain
+
+
+def main(
+    selected_path: str | Path,
+    summary_path: str | Path,
+    *,
+    snakefile: str | Path,
+    folder: str | Path,
+    rule: str,
+    factor: float,
+    config: Plain,
+    cores: int,
+) -> None:
+    """Run the workflow for the table of selected designs in a folder of its own; copy its summary.
+
+    Settings are those of this run, with rule and buckling factor of the search. Without a selected
+    design the summary is empty.
+    """
+    if len(Path(selected_path).read_text(encoding="utf-8").splitlines()) < 2:
+        return write_text_if_changed(summary_path, "")
+    sizing = {"rule": rule, "thinning_buckling_factor_min": factor}
+    more = {"designs": str(selected_path), "results": str(folder), "study": "found"}
+    more |= {"exploration": "none", "loop": "whole", "sizing": config.get("sizing", {}) | sizing}
+    settings = Path(f"{folder}.yaml")
+    write_text_if_changed(settings, yaml.safe_dump(config | more, sort_keys=False))
+    words = [sys.executable, "-m", "snakemake", "-s", str(snakefile), "--nolock"]
+    words += ["--cores", str(cores), "--configfile", str(settings)]
+    if subprocess.run(words).returncode:
+        raise InputError(f"{folder}: not all selected designs were confirmed: see above")
+    with atomic_path(summary_path) as temporary:
+        shutil.copyfile(Path(folder, "studies/found/summary.csv"), temporary)
+
+
+if "snakemake" in globals():
+    with run_job(snakemake):  # noqa: F821
+        main(
+            snakemake.input.selected,  # noqa: F821
+            snakemake.output.summary,  # noqa: F821
+            cores=snakemake.threads,  # noqa: F821
+            **snakemake.params,  # noqa: F821
+        )

@@ -1,0 +1,1 @@
+"""Search of the crease pattern: variables, proposals, evaluations, what was found."""

@@ -1,0 +1,75 @@
+"""candidate.json: a design that a search of the crease pattern has tried."""
+
+from dataclasses import asdict, dataclass
+from pathlib import Path
+
+from foldshell.files.errors import InputError
+from foldshell.files.whole import read_json, write_json
+from foldshell.records.entry import COUNT, entry
+
+
+@dataclass(frozen=True, kw_only=True)
+class CandidateRecord:
+    """The contents of candidate.json: a design that a search has tried."""
+
+    candidate: str = entry("round and number in it")
+    columns: dict[str, float | int | str] = entry("columns of the table of designs")
+    state: str = entry(
+        "sized; crumpled or not_reached in folding; not_converged, unstable or mechanism"
+    )
+    reason: str = entry("why, in words")
+    verdict: str | None = entry("verdict of the thickness loop", left_out=True)
+    feasible: bool = entry("whether it keeps all limits of the exploration")
+    broken: tuple[str, ...] = entry("limits that it breaks")
+    plan_coverage: float | None = entry("share of the plan covered", "-", left_out=True)
+    edge_strain_max: float | None = entry("largest edge strain", "-", left_out=True)
+    planarity_max: float | None = entry("largest distance of diagonals over length", "-",
+                                        left_out=True)  # fmt: skip
+    depth_m: float | None = entry("depth of the folds in the rest state", "m", left_out=True)
+    panels: int | None = entry("number of panels", COUNT, left_out=True)
+    crease_length_m: float | None = entry("length of all folds", "m", left_out=True)
+    cheap_m3: float | None = entry(
+        "volume by one analysis at the start thickness, n = 1, resized once", "m3", left_out=True
+    )
+    area_m2: float | None = entry("area of the sheet", "m2", left_out=True)
+    volume_m3: float | None = entry("volume of concrete of the sized shell", "m3", left_out=True)
+    buckling_factor_min: float | None = entry("least buckling factor", "-", left_out=True)
+    displacement_vertical_max_m: float | None = entry("largest downward", "m", left_out=True)
+    utilization_panel_mean_max: float | None = entry("largest panel mean", "-", left_out=True)
+    iterations: int | None = entry("analyses of the loop", COUNT, left_out=True)
+    mesh_subdivisions: int = entry("subdivisions of a facet edge", COUNT)
+    geometry: str | None = entry(
+        "vertices by 3 and panels by 4, for thumbnails: base64 of 16-bit numbers", left_out=True
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
+class ScreenedRecord:
+    """A design that was folded and analysed once, as a cheap answer before any is sized."""
+
+    columns: dict[str, float | int | str] = entry("columns of the table of designs")
+    cheap_m3: float | None = entry("volume by one analysis", "m3")
+    broken: tuple[str, ...] = entry("limits of geometry that it breaks")
+    reason: str = entry("why there is no answer", default="")
+
+
+def write_candidate_record(path: str | Path, record: CandidateRecord) -> None:
+    """Write candidate.json; what there is no value of is left out."""
+    write_json(path, {key: value for key, value in asdict(record).items() if value is not None})
+
+
+def read_candidate_record(path: str | Path) -> CandidateRecord:
+    """Read candidate.json.
+
+    Raises
+    ------
+    InputError
+        for a file that is none, or one of another version.
+    """
+    try:
+        data = read_json(path)
+        return CandidateRecord(**{**data, "broken": tuple(data["broken"])})
+    except (OSError, ValueError, TypeError, KeyError):
+        raise InputError(
+            f"{path}: is not a candidate of this version: delete it and start again"
+        ) from None

@@ -1,0 +1,192 @@
+"""explore.html: what a search of the pattern has tried, drawn to be compared and chosen from."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from foldshell.explore.fronts import find_front, rank_by
+from foldshell.explore.measures import count_broken
+from foldshell.explore.tables import list_variables, name_selected
+from foldshell.records.candidate import CandidateRecord
+from foldshell.records.entry import entries
+from foldshell.records.summary import SummaryRow
+from foldshell.report.markup import Cell, Table, make_table, render
+from foldshell.settings.design import COLUMNS
+from foldshell.settings.exploration import AIMS, Exploration
+from foldshell.settings.stage import flatten, to_plain
+
+WORDS = {
+    "candidate": "design",
+    "pattern": "pattern",
+    "sector_angle_deg": "sector angle [°]",
+    "rest_fold_angle_deg": "rest fold angle [°]",
+    "strip_grading": "grading of strips",
+    "zigzag": "zig-zag lines",
+    "strip": "strip lines",
+    "support": "supported edges",
+    "height_m": "height [m]",
+    "span_m": "span [m]",
+    "volume_m3": "concrete [m³]",
+    "panels": "panels",
+    "crease_length_m": "length of folds [m]",
+    "buckling_factor_min": "least buckling factor",
+    "displacement_vertical_max_m": "vertical displacement [m]",
+    "area_m2": "area of the sheet [m²]",
+    "plan_coverage": "share of the plan covered",
+    "edge_strain_max": "largest edge strain",
+    "depth_m": "depth of folds [m]",
+    "cheap_m3": "concrete by one analysis [m³]",
+}
+DRAWN = ("volume_m3", "buckling_factor_min", "panels", "crease_length_m", "area_m2",
+         "displacement_vertical_max_m", "plan_coverage", "depth_m", "cheap_m3")  # fmt: skip
+LISTED = ("volume_m3", "buckling_factor_min", "panels", "displacement_vertical_max_m",
+          "plan_coverage", "depth_m")  # fmt: skip
+AT_BOUND = 0.02
+"""Share of a range within which a value counts as at its bound."""
+
+
+@dataclass(frozen=True)
+class Confirmed:
+    """A chosen design by the search and by the ordinary rules, volumes in m3."""
+
+    name: str
+    candidate: str
+    searched: float
+    confirmed: float | None
+    factor: float | None
+    crosscheck: str | None
+    state: str
+    page: str
+
+    @property
+    def bias(self) -> float | None:
+        """The confirmed volume over the one of the search, less 1."""
+        return self.confirmed / self.searched - 1 if self.confirmed else None
+
+
+def make_explore_page(
+    exploration: Exploration, records: Sequence[CandidateRecord], rows: Sequence[SummaryRow]
+) -> str:
+    """Return the page; `rows` are those of the summary of the confirmed designs."""
+    kept = rank_by([record for record in records if record.feasible], exploration.aims[0])
+    confirmed = list_confirmed(exploration, records, rows)
+    names = [*list_variables(exploration), *DRAWN]
+    return render(
+        "explore.html",
+        title=f"Exploration {exploration.name}",
+        count=len(records),
+        kept=len(kept),
+        best=kept[0] if kept else None,
+        aim=WORDS[exploration.aims[0]],
+        aim_value=getattr(kept[0], exploration.aims[0]) if kept else None,
+        bounds=find_bounds(exploration, kept[:1]),
+        confirmed=_tabulate_confirmed(confirmed),
+        excluded=[(name, count) for name, count in count_broken(records).items()],
+        variables=[(WORDS.get(v.name, v.name), ", ".join(v.choices) or f"{v.low:g} to {v.high:g}")
+                   for v in exploration.variables],
+        limits=flatten(to_plain(exploration.limits)),
+        search=flatten(to_plain(exploration.search)),
+        table=_tabulate(exploration, records),
+        data=_pack(exploration, records, names, {one.candidate: one.page for one in confirmed}),
+    )  # fmt: skip
+
+
+def list_confirmed(
+    exploration: Exploration, records: Sequence[CandidateRecord], rows: Sequence[SummaryRow]
+) -> list[Confirmed]:
+    """Return the chosen designs with both their numbers, in the order of the summary."""
+    known = {name_selected(exploration, record): record for record in records}
+    return [
+        Confirmed(
+            row.design, known[row.design].candidate, known[row.design].volume_m3, row.volume_m3,
+            row.buckling_factor_min, row.crosscheck, row.state,
+            f"confirmed/{row.design}/page.html",
+        )
+        for row in rows if row.design in known
+    ]  # fmt: skip
+
+
+def find_bounds(exploration: Exploration, records: Sequence[CandidateRecord]) -> list[str]:
+    """Return the variables whose range ends where the given designs stand: it decides there."""
+    found = []
+    for variable in exploration.variables:
+        if variable.choices:
+            continue
+        for record in records:
+            if record.candidate.startswith("00"):
+                continue
+            share = (float(record.columns[variable.name]) - variable.low) / (
+                variable.high - variable.low
+            )
+            end = variable.low if share < AT_BOUND else variable.high
+            if not AT_BOUND <= share <= 1 - AT_BOUND:
+                found.append(f"{WORDS.get(variable.name, variable.name)} at {end:g}")
+    return found
+
+
+def _tabulate_confirmed(confirmed: Sequence[Confirmed]) -> Table | None:
+    if not confirmed:
+        return None
+    header = ("design", "concrete in the search [m³]", "confirmed [m³]", "difference [%]",
+              "least buckling factor", "second code", "state")  # fmt: skip
+    rows = [
+        (one.name, one.searched, one.confirmed, None if one.bias is None else 100 * one.bias,
+         one.factor, one.crosscheck, one.state)
+        for one in confirmed
+    ]  # fmt: skip
+    return make_table(header, rows)
+
+
+def _tabulate(exploration: Exploration, records: Sequence[CandidateRecord]) -> Table:
+    names = list_variables(exploration)
+    header = [WORDS["candidate"], *(WORDS.get(n, n) for n in (*names, *LISTED)), "state"]
+    rows = [
+        [
+            record.candidate, *(record.columns[name] for name in names),
+            *(getattr(record, name) for name in LISTED),
+            Cell("keeps all limits", "good") if record.feasible
+            else Cell(", ".join(record.broken) or record.state, "bad"),
+        ]
+        for record in rank_by(records, exploration.aims[0])
+    ]  # fmt: skip
+    return make_table(header, rows)
+
+
+def _pack(
+    exploration: Exploration, records: Sequence[CandidateRecord], names: Sequence[str], pages: dict
+) -> dict:
+    front = find_front([r for r in records if r.feasible], _pair(exploration))
+    marked = {record.candidate for record in front}
+    units = entries(CandidateRecord)
+    return {
+        "columns": [{"key": name, "words": WORDS.get(name, name),
+                     "text": name not in units and _is_text(exploration, records, name),
+                     "better": AIMS.get(name, 0)} for name in names],
+        "aims": list(_pair(exploration)),
+        "table": [column for column in COLUMNS if column not in ("design", "tags")],
+        "designs": [
+            {
+                "name": record.candidate, "round": int(record.candidate.split("-")[0]),
+                "row": record.columns, "state": record.state, "feasible": record.feasible,
+                "broken": list(record.broken), "front": record.candidate in marked,
+                "page": pages.get(record.candidate, ""), "shape": record.geometry or "",
+                "values": [_value(record, name) for name in names],
+            }
+            for record in records
+        ],
+    }  # fmt: skip
+
+
+def _pair(exploration: Exploration) -> tuple[str, str]:
+    first = exploration.aims[0]
+    if len(exploration.aims) == 2:
+        return first, exploration.aims[1]
+    return first, "buckling_factor_min" if first != "buckling_factor_min" else "volume_m3"
+
+
+def _is_text(exploration: Exploration, records: Sequence[CandidateRecord], name: str) -> bool:
+    return any(isinstance(record.columns.get(name), str) for record in records)
+
+
+def _value(record: CandidateRecord, name: str) -> object:
+    value = getattr(record, name) if hasattr(record, name) else record.columns[name]
+    return float(f"{value:.6g}") if isinstance(value, float) else value
