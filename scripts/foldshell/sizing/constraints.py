@@ -13,12 +13,19 @@ NEED_CONSTRAINTS = ("filtered_dead_band", "optimality")
 
 @dataclass(frozen=True)
 class Constraints:
-    """Values g (m,) with g <= 1 due, gradients dg/dt (m, P) 1/m, panel areas (P,) m2."""
+    """Values g (m,) with g <= 1 due, gradients dg/dt (m, P) 1/m, panel areas (P,) m2.
+
+    Of each value, in order: `panels` (a,) whose utilization it is, `nodes` (b, 2) and deflection
+    combination whose displacement, `factors` (c,) combination whose buckling factor; a + b + c = m.
+    """
 
     value: np.ndarray
     gradient: np.ndarray
     area: np.ndarray
     thinning: np.ndarray | None = None
+    panels: np.ndarray | None = None
+    nodes: np.ndarray | None = None
+    factors: np.ndarray | None = None
 
 
 def read_constraints(arrays: AnalysisArrays) -> Constraints | None:

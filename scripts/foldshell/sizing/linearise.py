@@ -77,7 +77,7 @@ def linearise_constraints(
     if filters:
         bulge = measure_bulges(model, result)[sized] / limit
         thinning = len(BULGES) - np.searchsorted(BULGES, bulge)
-    return Constraints(value, gradient[:, sized], area[sized], thinning)
+    return Constraints(value, gradient[:, sized], area[sized], thinning, panels, pairs, low)
 
 
 def measure_bulges(model: ShellModel, result: AnalysisResult) -> np.ndarray:
