@@ -56,8 +56,8 @@ rule propose:
     conda:
         "../envs/foldshell.yaml"
     params:
-        references=lambda wildcards: [] if int(wildcards.round) else REFERENCES,
         **SEARCH,
+        references=lambda wildcards: [] if int(wildcards.round) else REFERENCES,
     message:
         "exploration " + EXPLORATION.name + ": designs of round {wildcards.round}"
     script:

@@ -9,9 +9,9 @@ rule confirm:
         summary=f"{EXPLORED}/confirmed.csv",
     log:
         f"{RESULTS}/logs/confirm/{EXPLORATION.name}.log",
-    threads: workflow.cores
     conda:
         "../envs/foldshell.yaml"
+    threads: workflow.cores
     params:
         snakefile=f"{HOME}/Snakefile",
         folder=f"{EXPLORED}/confirmed",
@@ -24,8 +24,27 @@ rule confirm:
         "../scripts/confirm.py"
 
 
+rule slopes:
+    input:
+        candidates=rules.explored.input.candidates,
+        library=code_inputs("slopes"),
+    output:
+        json=f"{EXPLORED}/slopes.json",
+    log:
+        f"{RESULTS}/logs/slopes/{EXPLORATION.name}.log",
+    conda:
+        "../envs/foldshell.yaml"
+    params:
+        **SEARCH,
+    message:
+        "exploration " + EXPLORATION.name + ": what would help the best most"
+    script:
+        "../scripts/slopes.py"
+
+
 rule explore_page:
     input:
+        slopes=rules.slopes.output.json,
         candidates=rules.explored.input.candidates,
         table=rules.explored.output.table,
         confirmed=rules.confirm.output.summary,

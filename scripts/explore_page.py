@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from foldshell.engine.job import run_job
-from foldshell.files.whole import write_text_if_changed
+from foldshell.files.whole import read_json, write_text_if_changed
 from foldshell.records.candidate import read_candidate_record
 from foldshell.records.summary import SummaryRow
 from foldshell.records.table import read_rows
@@ -18,12 +18,13 @@ def main(
     *,
     candidates: Sequence[str | Path],
     confirmed: str | Path,
+    slopes: str | Path,
     exploration: Plain,
 ) -> None:
     """Write explore.html; `confirmed` is the summary of the best designs, empty without any."""
     records = [read_candidate_record(path) for path in candidates]
     rows = read_rows(confirmed, SummaryRow) if Path(confirmed).stat().st_size else []
-    page = make_explore_page(restore_exploration(exploration), records, rows)
+    page = make_explore_page(restore_exploration(exploration), records, rows, read_json(slopes))
     write_text_if_changed(page_path, page)
 
 
@@ -33,5 +34,6 @@ if "snakemake" in globals():
             snakemake.output.page,  # noqa: F821
             candidates=snakemake.input.candidates,  # noqa: F821
             confirmed=snakemake.input.confirmed,  # noqa: F821
+            slopes=snakemake.input.slopes,  # noqa: F821
             **snakemake.params,  # noqa: F821
         )

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from foldshell.explore.measures import (
+    ANGLES,
     GEOMETRIC,
     find_broken,
     measure_creases,
@@ -103,7 +104,7 @@ def estimate_volume(folded: FoldedCandidate, settings: StageSettings) -> float:
     return float(area @ np.clip(wish, sizing.least_thickness, sizing.largest_thickness))
 
 
-def measure_sheet(folded: FoldedCandidate) -> dict[str, float]:
+def measure_sheet(folded: FoldedCandidate) -> dict[str, float | None]:
     """Return what is known of a candidate once it is folded, by the keys of its record."""
     quality, grid = folded.result.quality, folded.sheet.grid
     creases = np.flatnonzero(np.isin(grid.assignments, ["M", "V"]))
@@ -111,6 +112,7 @@ def measure_sheet(folded: FoldedCandidate) -> dict[str, float]:
         "plan_coverage": quality.plan_coverage,
         "edge_strain_max": quality.edge_strain_max,
         "planarity_max": quality.planarity_max,
+        **{key: folded.sheet.settings.get(key) for key in ANGLES},
         "depth_m": measure_depth(folded.sheet.rest),
         "panels": grid.panels,
         "crease_length_m": measure_creases(folded.result.shape.vertices, grid.edges, creases),

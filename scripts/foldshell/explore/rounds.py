@@ -7,11 +7,15 @@ import numpy as np
 from foldshell.explore.evaluate import screen
 from foldshell.explore.fronts import find_front, rank_by
 from foldshell.explore.names import name_candidate
-from foldshell.explore.propose import choose_batch, gather, propose_points, to_columns
+from foldshell.explore.propose import choose_batch, gather, propose_points, to_columns, to_point
+from foldshell.explore.slopes import find_slopes, size_state
 from foldshell.records.candidate import CandidateRecord, ScreenedRecord
 from foldshell.settings.exploration import Exploration
 from foldshell.settings.field import Plain
 from foldshell.settings.stage import StageSettings
+
+STEP = 0.1
+"""Length of a step down the slopes, in ranges of the variables."""
 
 
 def propose_round(
@@ -25,15 +29,17 @@ def propose_round(
     `records` are those of all rounds before; `settings` Pattern, Fold and those of an analysis.
     """
     count, search = exploration.count_batch(number), exploration.search
+    step = _go_down(exploration, records, settings) if number > 1 and search.gradient_step else []
+    count -= len(step)
     cheap_first = number > 1 and search.method != "sobol" and search.screened > count
     if not cheap_first:
         points = propose_points(exploration, records, number, count)
-        return _name(exploration, number, points), []
+        return _name(exploration, number, [*points, *step]), []
     points = propose_points(exploration, records, number, search.screened)
     rows = [exploration.make_row("screened", to_columns(exploration, point)) for point in points]
     answers = [screen(row, settings, exploration) for row in rows]
     chosen = _choose(exploration, records, points, answers, count, search.seed + number)
-    return _name(exploration, number, chosen), answers
+    return _name(exploration, number, [*chosen, *step]), answers
 
 
 def _choose(
@@ -53,7 +59,30 @@ def _choose(
     return choose_batch(exploration, found, points[good], count, seed, logs)
 
 
-def _name(exploration: Exploration, number: int, points: np.ndarray) -> list[Plain]:
+def _go_down(
+    exploration: Exploration, records: Sequence[CandidateRecord], settings: StageSettings
+) -> list[np.ndarray]:
+    """Return the point (d,) a step from the best so far down its slopes, none where it has none."""
+    best = choose_best(exploration, records, 1)
+    if not best:
+        return []
+    try:
+        state = size_state(best[0].columns, settings, exploration)
+        slopes = find_slopes(state, settings, exploration)
+    except ValueError:
+        return []
+    names = [variable.name for variable in exploration.variables]
+    downward = np.zeros(len(names))
+    for slope in slopes:
+        downward[names.index(slope.variable)] = -slope.per_range
+    point = to_point(exploration, best[0])
+    blocked = ((point >= 1) & (downward > 0)) | ((point <= 0) & (downward < 0))
+    downward[blocked] = 0
+    length = float(np.linalg.norm(downward))
+    return [np.clip(point + STEP * downward / length, 0, 1)] if length > 0 else []
+
+
+def _name(exploration: Exploration, number: int, points: Sequence[np.ndarray]) -> list[Plain]:
     return [
         exploration.make_row(name_candidate(number, place), to_columns(exploration, point))
         for place, point in enumerate(points)

@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from foldshell.explore.fronts import find_front, rank_by
-from foldshell.explore.measures import count_broken
+from foldshell.explore.measures import ANGLES, count_broken
 from foldshell.files.errors import InputError
 from foldshell.files.whole import write_text_if_changed
 from foldshell.records.candidate import CandidateRecord
@@ -51,6 +51,11 @@ def list_variables(exploration: Exploration) -> list[str]:
     return ["pattern", *(v.name for v in exploration.variables if v.name != "pattern")]
 
 
+def value_of(record: CandidateRecord, name: str) -> object:
+    """Return what a candidate has in a column, an angle also where the settings gave it."""
+    return getattr(record, name) if name in ANGLES else record.columns[name]
+
+
 def tabulate(exploration: Exploration, records: Sequence[CandidateRecord]) -> list[list[object]]:
     """Return a header and a row a candidate: name, variables, measures, ends."""
     variables = list_variables(exploration)
@@ -58,7 +63,7 @@ def tabulate(exploration: Exploration, records: Sequence[CandidateRecord]) -> li
     rows = [
         [
             record.candidate,
-            *(record.columns[name] for name in variables),
+            *(value_of(record, name) for name in variables),
             *(getattr(record, name) for name in (*MEASURES, *ENDS)),
         ]
         for record in sorted(records, key=lambda record: record.candidate)
@@ -85,7 +90,7 @@ def write_design_explorer(
     writer.writerow([*(f"in:{name}" for name in variables), *(f"out:{name}" for name in numbers)])
     for record in sorted(records, key=lambda record: record.candidate):
         if record.volume_m3 is not None:
-            cells = [record.columns[name] for name in variables]
+            cells = [value_of(record, name) for name in variables]
             writer.writerow([*cells, *(getattr(record, name) for name in numbers)])
     write_text_if_changed(path, text.getvalue())
 

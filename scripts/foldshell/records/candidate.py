@@ -25,6 +25,8 @@ class CandidateRecord:
     edge_strain_max: float | None = entry("largest edge strain", "-", left_out=True)
     planarity_max: float | None = entry("largest distance of diagonals over length", "-",
                                         left_out=True)  # fmt: skip
+    sector_angle_deg: float | None = entry("of its Miura sheet", "deg", left_out=True)
+    rest_fold_angle_deg: float | None = entry("of its Miura sheet", "deg", left_out=True)
     depth_m: float | None = entry("depth of the folds in the rest state", "m", left_out=True)
     panels: int | None = entry("number of panels", COUNT, left_out=True)
     crease_length_m: float | None = entry("length of all folds", "m", left_out=True)

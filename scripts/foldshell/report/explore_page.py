@@ -5,9 +5,9 @@ from dataclasses import dataclass
 
 from foldshell.explore.fronts import find_front, rank_by
 from foldshell.explore.measures import count_broken
-from foldshell.explore.tables import list_variables, name_selected
+from foldshell.explore.tables import list_variables, name_selected, value_of
+from foldshell.files.whole import Json
 from foldshell.records.candidate import CandidateRecord
-from foldshell.records.entry import entries
 from foldshell.records.summary import SummaryRow
 from foldshell.report.markup import Cell, Table, make_table, render
 from foldshell.settings.design import COLUMNS
@@ -64,9 +64,13 @@ class Confirmed:
 
 
 def make_explore_page(
-    exploration: Exploration, records: Sequence[CandidateRecord], rows: Sequence[SummaryRow]
+    exploration: Exploration,
+    records: Sequence[CandidateRecord],
+    rows: Sequence[SummaryRow],
+    slopes: Sequence[Json] = (),
 ) -> str:
-    """Return the page; `rows` are those of the summary of the confirmed designs."""
+    """Return the page; `rows` are those of the summary of the confirmed designs, `slopes` the
+    contents of slopes.json."""
     kept = rank_by([record for record in records if record.feasible], exploration.aims[0])
     confirmed = list_confirmed(exploration, records, rows)
     names = [*list_variables(exploration), *DRAWN]
@@ -85,6 +89,7 @@ def make_explore_page(
                    for v in exploration.variables],
         limits=flatten(to_plain(exploration.limits)),
         search=flatten(to_plain(exploration.search)),
+        slopes=[_draw_slopes(one) for one in slopes],
         table=_tabulate(exploration, records),
         data=_pack(exploration, records, names, {one.candidate: one.page for one in confirmed}),
     )  # fmt: skip
@@ -123,6 +128,20 @@ def find_bounds(exploration: Exploration, records: Sequence[CandidateRecord]) ->
     return found
 
 
+def _draw_slopes(entry: Json) -> dict:
+    """Return bars of a design's slopes: words, value over the variable's range, place and width in
+    a drawing 400 wide whose middle is 0."""
+    largest = max((abs(one["per_range"]) for one in entry["slopes"]), default=1.0) or 1.0
+    bars = []
+    for one in sorted(entry["slopes"], key=lambda one: -abs(one["per_range"])):
+        width = 190 * abs(one["per_range"]) / largest
+        start = 200 if one["per_range"] > 0 else 200 - width
+        name = WORDS.get(one["variable"], one["variable"])
+        bars.append({"words": name, "value": one["per_range"], "width": width, "start": start})
+    return {"name": entry["candidate"], "reason": entry["reason"], "residual": entry["residual"],
+            "bars": bars}  # fmt: skip
+
+
 def _tabulate_confirmed(confirmed: Sequence[Confirmed]) -> Table | None:
     if not confirmed:
         return None
@@ -141,7 +160,7 @@ def _tabulate(exploration: Exploration, records: Sequence[CandidateRecord]) -> T
     header = [WORDS["candidate"], *(WORDS.get(n, n) for n in (*names, *LISTED)), "state"]
     rows = [
         [
-            record.candidate, *(record.columns[name] for name in names),
+            record.candidate, *(value_of(record, name) for name in names),
             *(getattr(record, name) for name in LISTED),
             Cell("keeps all limits", "good") if record.feasible
             else Cell(", ".join(record.broken) or record.state, "bad"),
@@ -156,10 +175,9 @@ def _pack(
 ) -> dict:
     front = find_front([r for r in records if r.feasible], _pair(exploration))
     marked = {record.candidate for record in front}
-    units = entries(CandidateRecord)
     return {
         "columns": [{"key": name, "words": WORDS.get(name, name),
-                     "text": name not in units and _is_text(exploration, records, name),
+                     "text": _is_text(records, name),
                      "better": AIMS.get(name, 0)} for name in names],
         "aims": list(_pair(exploration)),
         "table": [column for column in COLUMNS if column not in ("design", "tags")],
@@ -183,10 +201,10 @@ def _pair(exploration: Exploration) -> tuple[str, str]:
     return first, "buckling_factor_min" if first != "buckling_factor_min" else "volume_m3"
 
 
-def _is_text(exploration: Exploration, records: Sequence[CandidateRecord], name: str) -> bool:
+def _is_text(records: Sequence[CandidateRecord], name: str) -> bool:
     return any(isinstance(record.columns.get(name), str) for record in records)
 
 
 def _value(record: CandidateRecord, name: str) -> object:
-    value = getattr(record, name) if hasattr(record, name) else record.columns[name]
+    value = getattr(record, name) if name in DRAWN else value_of(record, name)
     return float(f"{value:.6g}") if isinstance(value, float) else value

@@ -89,9 +89,15 @@ class Search(Group):
         meaning="Sizing rule of search and confirmation.",
     )  # fmt: skip
     slopes: int = setting(
-        0, unit="designs", minimum=0, maximum=20,
-        meaning="Best designs whose slopes dV/dx are computed.",
+        1, unit="designs", minimum=0, maximum=20,
+        meaning="Best designs whose slopes dV/dx are computed; multipliers are exact for the rule "
+        "optimality alone, the residual says how far they are from it.",
     )  # fmt: skip
+    gradient_step: bool = setting(
+        False,
+        meaning="The last design of each batch goes from the best so far down its slopes; it "
+        "counts like any other, so it stays only where it helps.",
+    )
 
 
 @dataclass(frozen=True)

@@ -59,7 +59,9 @@ def _column(exploration: Exploration, name: str) -> Column:
 
 
 def _cells(record: CandidateRecord, names: Sequence[str]) -> list[object]:
-    values = [record.columns[name] for name in names]
+    angles = {"sector_angle_deg": record.sector_angle_deg,
+              "rest_fold_angle_deg": record.rest_fold_angle_deg}  # fmt: skip
+    values = [angles.get(name) if name in angles else record.columns[name] for name in names]
     measures = [getattr(record, name) for name in _SHOWN]
     ends = [record.state, "yes" if record.feasible else "no", ", ".join(record.broken)]
     return [record.candidate, *values, *measures, *ends, record.reason]
