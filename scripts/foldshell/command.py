@@ -19,6 +19,7 @@ _HELP = {
     "progress": "say how far a run is",
     "verify": "say whether the results are still what was made, or an archive what was put in",
     "archive": "pack the study of this folder into one file: foldshell archive [option ...]",
+    "explore": "search the pattern by a file of config/explorations: foldshell explore FILE [...]",
     "look": "open the page of a design, or print where it is",
 }
 
@@ -29,6 +30,7 @@ def main(arguments: Sequence[str] | None = None) -> int:
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     parts = {name: commands.add_parser(name, help=text) for name, text in _HELP.items()}
     parts["new"].add_argument("folder")
+    parts["explore"].add_argument("file")
     parts["look"].add_argument("design")
     parts["look"].add_argument("--results", default="results")
     given, more = parser.parse_known_args(arguments)
@@ -40,6 +42,11 @@ def main(arguments: Sequence[str] | None = None) -> int:
             return 0
         if given.command == "look":
             return look_at(given.design, Path(given.results))
+        if given.command == "explore":
+            if not Path(given.file).is_file():
+                raise InputError(f"{given.file}: no such file of an exploration")
+            more = ["explore", *more, "--config", f"exploration={given.file}"]
+            return run_program("run", more)
         return run_program(given.command, more)
 
 

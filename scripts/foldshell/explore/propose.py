@@ -43,18 +43,18 @@ def spread_points(exploration: Exploration, count: int, skip: int = 0) -> np.nda
 
 
 def to_columns(exploration: Exploration, point: np.ndarray) -> dict[str, float | int | str]:
-    """Return the values of the variables at a point (d,) from 0 to 1."""
+    """Return the values of the variables at a point (d,) in ranges, from 0 to 1; no unit."""
     pairs = zip(exploration.variables, point, strict=True)
     return {variable.name: variable.to_value(float(share)) for variable, share in pairs}
 
 
 def to_point(exploration: Exploration, record: CandidateRecord) -> np.ndarray:
-    """Return the point (d,) of a candidate; wholes and choices in the middle of their part."""
+    """Return the point (d,) of a candidate, no unit; wholes and choices in the middle of a part."""
     return np.array([v.to_share(record.columns[v.name]) for v in exploration.variables])
 
 
 def snap(exploration: Exploration, points: np.ndarray) -> np.ndarray:
-    """Return points (k, d) where columns put them: choices and wholes in the middle of a part."""
+    """Return points (k, d), no unit, where columns put them: wholes in the middle of a part."""
     snapped = points.copy()
     for place, variable in enumerate(exploration.variables):
         if variable.whole or variable.choices:
@@ -64,7 +64,7 @@ def snap(exploration: Exploration, points: np.ndarray) -> np.ndarray:
 
 
 def fit_process(points: np.ndarray, values: np.ndarray, seed: int) -> Model:
-    """Fit a Gaussian process to values (k,) at points (k, d)."""
+    """Fit a Gaussian process to values (k,) at points (k, d); no unit."""
     from sklearn.exceptions import ConvergenceWarning
     from sklearn.gaussian_process import GaussianProcessRegressor
     from sklearn.gaussian_process.kernels import ConstantKernel, Matern, WhiteKernel
@@ -177,7 +177,7 @@ def propose_points(
 
 
 def make_pool(exploration: Exploration, found: Found, number: int) -> np.ndarray:
-    """Return points (POOL + NEAR, d): spread over the box, and around the best that were found."""
+    """Return points (POOL + NEAR, d), no unit: over the box, and around the best found."""
     from scipy.stats import qmc
 
     size, seed = len(exploration.variables), exploration.search.seed + 1000 * number
@@ -226,7 +226,7 @@ def _shift(found: Found, column: int, cheap: np.ndarray | None) -> tuple[np.ndar
 def predict_aim(
     found: Found, pool: np.ndarray, column: int, seed: int, cheap: np.ndarray | None
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return mean and deviation (k,) of the logarithm of one aim at the points of a pool (k, d)."""
+    """Return mean and deviation (k,) of the logarithm of one aim at a pool (k, d); no unit."""
     known, mean_of = _shift(found, column, cheap)
     rest = found.aims[known, column] - mean_of(found.cheap[known])
     mean, deviation = fit_process(found.points[known], rest, seed).predict(pool)
@@ -236,7 +236,7 @@ def predict_aim(
 def expect_gain(
     exploration: Exploration, found: Found, pool: np.ndarray, seed: int, cheap: np.ndarray | None
 ) -> np.ndarray:
-    """Return the expected gain (k,) at the points of a pool (k, d): of one aim, or of the front."""
+    """Return the expected gain (k,) at a pool (k, d), no unit: of one aim, or of the front."""
     count = len(exploration.aims)
     told = [predict_aim(found, pool, column, seed, cheap) for column in range(count)]
     known = np.isfinite(found.aims).all(axis=1)
@@ -265,7 +265,7 @@ def _expect_front(told, front: np.ndarray, corner: np.ndarray, seed: int) -> np.
 
 
 def keep_probability(found: Found, pool: np.ndarray, seed: int) -> np.ndarray:
-    """Return the probability (k,) that a point of the pool (k, d) keeps all limits."""
+    """Return the probability (k,), no unit, that a point of the pool (k, d) keeps all limits."""
     from scipy.special import ndtr
 
     keep = np.ones(len(pool))
@@ -280,7 +280,7 @@ def keep_probability(found: Found, pool: np.ndarray, seed: int) -> np.ndarray:
 
 
 def believe(found: Found, point: np.ndarray, seed: int, cheap: float | None) -> Found:
-    """Return what is known with a point (d,) at which the models are believed."""
+    """Return what is known with a point (d,), no unit, at which the models are believed."""
     count = found.aims.shape[1]
     logs = None if cheap is None else np.array([cheap])
     aims = [float(predict_aim(found, point[None], c, seed, logs)[0][0]) for c in range(count)]
