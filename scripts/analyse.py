@@ -12,7 +12,7 @@ from foldshell.settings.stage import Plain, read_stage
 from foldshell.sizing.case import open_case
 from foldshell.sizing.iteration import IterationTask
 from foldshell.workbook.panels import Paths, choose_panels
-from foldshell.workbook.read_thickness import read_thickness
+from foldshell.workbook.read_thickness import read_panel_input
 
 
 def main(
@@ -34,14 +34,14 @@ def main(
     """Write analysis.npz, then analysis.json; `previous` names those of the iteration before."""
     given = read_stage(settings, *ANALYSED)
     keep_edited(workbook_path)
-    panels, bounds = choose_panels(zigzag, strip, folded), given.sizing.bounds
-    thickness = read_thickness(workbook_path, panels, *bounds)
+    read = read_panel_input(workbook_path, choose_panels(zigzag, strip, folded), given.sizing)
     before = read_iteration(*previous) if previous else (None, None)
-    edited = find_edited_panels(workbook_path, thickness)
-    task = IterationTask(iteration, span_m, thickness, *before, edited)
+    edited = find_edited_panels(workbook_path, read.thickness, read.limits)
+    task = IterationTask(iteration, span_m, read.thickness, *before, edited, read.limits)
     record, arrays = open_case(mesh_path, given).run_in_loop(task)
     decided = getattr(before[0], "settings_hash", settings_hash)
-    record = replace(record, **describe_reading(workbook_path, thickness, decided))
+    own = describe_reading(workbook_path, read.thickness, decided, read.limits)
+    record = replace(record, **own)
     write_iteration(json_path, arrays_path, record, arrays)
     print_line(describe_iteration(design, record))
 

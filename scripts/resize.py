@@ -36,13 +36,14 @@ def main(
     if not analysis.goes_on:
         raise InputError(f"{json_path}: verdict {analysis.verdict}: no step follows, start again")
     memory = read_typed_arrays(previous_memory, StepMemory) if previous_memory else None
-    following, old = take_step(analysis, arrays, memory, sizing), arrays.thickness
-    new = following.thickness
+    following = take_step(analysis, arrays, memory, sizing)
+    new, old = following.thickness, arrays.thickness
     grid, used = choose_panels(zigzag, strip, folded), arrays.utilization(sizing.measure)
-    table = ThicknessTable(grid, new, old, used, new / old - 1, following.note)
-    summary = summarise_step(design, analysis, sizing)
+    change, limits = new / old - 1, following.limits
+    table = ThicknessTable(grid, new, old, used, change, following.note, limits)
     write_typed_arrays(memory_path, following.memory)
-    with recorded_workbook(workbook_path, record_path, new) as temporary:
+    summary = summarise_step(design, analysis, sizing)
+    with recorded_workbook(workbook_path, record_path, new, limits) as temporary:
         write_thickness(temporary, table, summary, *sizing.bounds, sizing.utilization_max)
 
 

@@ -2,14 +2,12 @@
 
 from pathlib import Path
 
-import numpy as np
-
 from foldshell.engine.job import run_job
 from foldshell.records.edits import recorded_workbook
 from foldshell.settings.sizing import Sizing
 from foldshell.settings.stage import Plain, read_stage
-from foldshell.sizing.rounding import round_thickness
-from foldshell.workbook.panels import Paths, ThicknessTable, choose_panels
+from foldshell.sizing.start import start_thicknesses
+from foldshell.workbook.panels import Paths, ThicknessTable, choose_panels, mirror_panels
 from foldshell.workbook.thickness_summary import summarise_start
 from foldshell.workbook.write_thickness import write_thickness
 
@@ -29,10 +27,11 @@ def main(
     sizing = read_stage(settings, Sizing).sizing
     least, largest = sizing.least_thickness, sizing.largest_thickness
     grid = choose_panels(zigzag, strip, folded)
-    table = ThicknessTable(grid, np.full(len(grid.panel), sizing.start_thickness))
+    limits = mirror_panels(grid, sizing.symmetry)
+    begin = start_thicknesses(len(grid.panel), sizing, limits)
+    table = ThicknessTable(grid, begin, limits=limits)
     summary = summarise_start(design, least, largest, settings_hash)
-    written = round_thickness(table.thickness)
-    with recorded_workbook(workbook_path, record_path, written) as temporary:
+    with recorded_workbook(workbook_path, record_path, begin, limits) as temporary:
         write_thickness(temporary, table, summary, least, largest)
 
 

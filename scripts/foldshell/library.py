@@ -33,7 +33,7 @@ from foldshell.sizing.case import AnalysisCase, make_case
 from foldshell.sizing.iteration import IterationTask
 from foldshell.sizing.loop import run_loop
 from foldshell.sizing.rounding import round_thickness
-from foldshell.workbook.panels import PanelGrid, ThicknessTable
+from foldshell.workbook.panels import PanelGrid, ThicknessTable, mirror_panels
 from foldshell.workbook.styles import Line, make_lines
 from foldshell.workbook.write_thickness import write_thickness
 
@@ -136,7 +136,9 @@ def analyse_shell(shell: Shell, thickness: float | np.ndarray) -> SizedShell:
 
 def size_shell(shell: Shell) -> SizedShell:
     """Size the panels of a shell from the start thickness of the settings until a verdict."""
-    done = run_loop(shell.case, shell.span, shell.settings.sizing)
+    sizing = shell.settings.sizing
+    limits = mirror_panels(shell.grid, sizing.symmetry)
+    done = run_loop(shell.case, shell.span, sizing, limits)
     return _gather(shell, done.analyses, done.final, done.arrays)
 
 

@@ -15,6 +15,7 @@ from foldshell.settings.stage import StageSettings
 from foldshell.sizing.case import open_case
 from foldshell.sizing.delivery import analyse_delivered
 from foldshell.sizing.loop import run_loop
+from foldshell.workbook.panels import make_panel_grid, mirror_panels
 
 SHEARED = {
     "displacement_down_max_m": ("displacement", "displacement_edge", "displacement_inner"),
@@ -43,7 +44,10 @@ def measure_variant(
         case = open_case(mesh_path, changed)
         final, arrays = analyse_delivered(case, span, *read_iteration(*delivered[:2]))
     else:
-        result = run_loop(open_case(mesh_path, changed), span, changed.sizing)
+        limits = mirror_panels(
+            make_panel_grid(layout.zigzag, layout.strip), changed.sizing.symmetry
+        )
+        result = run_loop(open_case(mesh_path, changed), span, changed.sizing, limits)
         final, arrays = result.final, result.arrays
     mesh = read_checked_arrays(mesh_path, MeshArrays)
     state = layout, final, arrays, changed.combinations, changed.sizing.measure

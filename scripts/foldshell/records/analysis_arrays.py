@@ -35,6 +35,14 @@ class AnalysisArrays:
         "B", "-", "largest facet or strip mean of a panel of the edge beam"
     )
     edge_beam_panel: np.ndarray | None = array("B", "", "panel of the sheet that holds each")
+    panel_fixed: np.ndarray | None = array(
+        "P", "", "whether a panel keeps its thickness; this and the next three where a person asked"
+    )
+    panel_least: np.ndarray | None = array("P", "m", "least thickness of its own, nan for none")
+    panel_largest: np.ndarray | None = array("P", "m", "largest thickness of its own, nan for none")
+    panel_group: np.ndarray | None = array(
+        "P", "", "panels of one number from 1 on take one thickness, 0 for none"
+    )
     displacement: np.ndarray | None = array(
         "D, C", "m and rad", "unknowns of the last state of a loop"
     )

@@ -6,6 +6,7 @@ import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import Protocol
 
 import numpy as np
 
@@ -21,19 +22,39 @@ RECORD = "written.json"
 """Beside each thickness.xlsx: what the workflow wrote."""
 
 
+class Limits(Protocol):
+    """What is asked of panels: arrays (P,) by name."""
+
+    @property
+    def given(self) -> bool:
+        """Whether anything is asked for."""
+
+
 @contextmanager
 def recorded_workbook(
-    workbook: str | Path, record: str | Path, thickness: np.ndarray
+    workbook: str | Path, record: str | Path, thickness: np.ndarray, limits: Limits | None = None
 ) -> Iterator[Path]:
-    """Yield a temporary name for a workbook with a thickness (P,) m; write down its hash and
-    these, then rename it into place.
+    """Yield a temporary name for a workbook with a thickness (P,) m and what is asked of panels;
+    write down its hash and these, then rename it into place.
 
     The workbook comes last, since the next analysis waits for it.
     """
     with atomic_path(workbook) as temporary:
         yield temporary
         hashed, written = hash_file(temporary), tuple(thickness.tolist())
-        write_record(record, WrittenRecord(sha256=hashed, thickness_m=written))
+        asked = _list_limits(limits)
+        write_record(record, WrittenRecord(sha256=hashed, thickness_m=written, limits=asked))
+
+
+def _list_limits(limits: Limits | None) -> dict[str, tuple[float | None, ...]] | None:
+    """Return the columns by name, None for empty cells; None where nothing is asked of panels."""
+    if limits is None or not limits.given:
+        return None
+    columns = {name: np.asarray(values, float) for name, values in vars(limits).items()}
+    return {
+        name: tuple(None if np.isnan(one) else one for one in values.tolist())
+        for name, values in columns.items()
+    }
 
 
 def read_written(workbook: str | Path) -> WrittenRecord | None:
@@ -52,33 +73,50 @@ def is_edited(workbook: str | Path) -> bool:
     return written is not None and workbook.exists() and hash_file(workbook) != written.sha256
 
 
-def find_edited_panels(workbook: str | Path, thickness: np.ndarray) -> tuple[int, ...] | None:
-    """Return the panels whose thickness (P,) m a person has changed, None in a workbook that
-    nobody has.
+def find_edited_panels(
+    workbook: str | Path, thickness: np.ndarray, limits: Limits | None = None
+) -> tuple[int, ...] | None:
+    """Return the panels whose thickness (P,) m, or of which something else is asked, a person has
+    changed; None in a workbook that nobody has.
 
     A workbook that was only saved anew has none; without a record of what was written all count.
     """
     if not is_edited(workbook):
         return None
-    before = read_written(workbook).thickness_m
+    written = read_written(workbook)
+    before = written.thickness_m
     if before is None or len(before) != len(thickness):
         return tuple(range(len(thickness)))
-    return tuple(np.flatnonzero(np.asarray(before) != thickness).tolist())
+    changed = np.asarray(before) != thickness
+    asked, was = _list_limits(limits) or {}, written.limits or {}
+    nothing = {"fixed": 0.0, "group": 0.0}
+    for name in {**asked, **was}:
+        empty = (nothing.get(name),) * len(thickness)
+        pairs = zip(asked.get(name, empty), was.get(name, empty), strict=True)
+        changed |= np.array([now != old for now, old in pairs])
+    return tuple(np.flatnonzero(changed).tolist())
 
 
-def hash_edit(decisions: str, workbook: str | Path, thickness: np.ndarray) -> str:
+def hash_edit(
+    decisions: str, workbook: str | Path, thickness: np.ndarray, limits: Limits | None = None
+) -> str:
     """Return the hash of all that decides a design, once its thicknesses (P,) m were read.
 
-    It stays what it was, unless a person has changed a thickness that the workflow wrote.
+    It stays what it was, unless a person has changed what the workflow wrote.
     """
-    edited = find_edited_panels(workbook, thickness)
-    return hash_data([decisions, thickness.tolist()])[:DIGITS] if edited else decisions
+    if not find_edited_panels(workbook, thickness, limits):
+        return decisions
+    asked = _list_limits(limits)
+    more = [] if asked is None else [{name: list(values) for name, values in asked.items()}]
+    return hash_data([decisions, thickness.tolist(), *more])[:DIGITS]
 
 
-def describe_reading(workbook: str | Path, thickness: np.ndarray, decisions: str) -> dict[str, str]:
+def describe_reading(
+    workbook: str | Path, thickness: np.ndarray, decisions: str, limits: Limits | None = None
+) -> dict[str, str]:
     """Return what an analysis says of the workbook of thicknesses (P,) m that it read."""
     return {
-        "settings_hash": hash_edit(decisions, workbook, thickness),
+        "settings_hash": hash_edit(decisions, workbook, thickness, limits),
         "workbook_sha256": hash_file(workbook),
     }
 

@@ -13,3 +13,8 @@ class WrittenRecord:
     thickness_m: tuple[float, ...] | None = entry(
         "thickness of each panel as it was written", "m", left_out=True
     )
+    limits: dict[str, tuple[float | None, ...]] | None = entry(
+        "columns fixed (0 or 1), least and largest (m) and group as they were written, null for "
+        "empty cells; left out where all are",
+        left_out=True,
+    )

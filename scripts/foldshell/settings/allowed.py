@@ -3,7 +3,7 @@
 import math
 import re
 
-from foldshell.settings.field import Factors, Setting
+from foldshell.settings.field import NUMBERS, Factors, Setting
 from foldshell.settings.nearest import hint_nearest
 
 NUMBER = re.compile(r"[-+]?(0|[1-9][0-9]{0,17})(\.[0-9]*)?([eE][-+]?[0-9]{1,3})?")
@@ -29,6 +29,8 @@ def describe_allowed(known: Setting) -> str:
     if known.kind == tuple[int, int]:
         return f"a list of 2 values, each a whole number{_describe_range(known)}"
     unit = f" in {known.unit}" if known.unit else ""
+    if known.kind == NUMBERS:
+        return f"a list of rising numbers{unit}, each{_describe_range(known)}, or an empty one"
     if known.ranges:
         words = [f"of {low:g} to {high:g}" for low, high in known.ranges]
         return f"0 for none or {_NUMBERS[known.kind]}{unit} {', or '.join(words)}"

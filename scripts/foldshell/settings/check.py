@@ -1,5 +1,6 @@
 """From plain values of a file to typed settings, with one sentence for what is not allowed."""
 
+import itertools
 import math
 import re
 from collections.abc import Iterator, Mapping
@@ -9,7 +10,7 @@ from typing import Any
 from foldshell.files.errors import InputError
 from foldshell.files.plain_text import find_unsafe
 from foldshell.settings.allowed import NUMBER, describe_allowed, describe_hint, in_range
-from foldshell.settings.field import Factors, Setting, list_groups, list_settings
+from foldshell.settings.field import NUMBERS, Factors, Setting, list_groups, list_settings
 from foldshell.settings.nearest import find_nearest
 
 COMBINATIONS_MAX = 40
@@ -66,6 +67,8 @@ class Reader:
         """Return an allowed value of the file, an old word as the new one."""
         if known.kind == tuple[int, int]:
             return self._read_pair(known, value, place)
+        if known.kind == NUMBERS:
+            return self._read_numbers(known, value, place)
         if known.kind == tuple[str, ...]:
             return self._read_words(known, value, place)
         if known.kind == Factors:
@@ -95,6 +98,16 @@ class Reader:
             raise InputError(f"{self.source}: {place}: {len(value)} entries: exactly 2 are allowed")
         item = replace(known, kind=int)
         return [self.read_value(item, v, f"{place}[{i}]") for i, v in enumerate(value)]
+
+    def _read_numbers(self, known: Setting, value: Any, place: str) -> list[float]:
+        """Read a list of numbers in rising order; it may be empty."""
+        if not isinstance(value, list | tuple):
+            raise self.refuse(place, value, describe_allowed(known))
+        item = replace(known, kind=float)
+        found = [self.read_value(item, v, f"{place}[{i}]") for i, v in enumerate(value)]
+        if any(low >= high for low, high in itertools.pairwise(found)):
+            raise InputError(f"{self.source}: {place}: {value}: rising numbers are allowed")
+        return found
 
     def _read_words(self, known: Setting, value: Any, place: str) -> list[str]:
         if isinstance(value, str) and not known.choices:
@@ -192,7 +205,7 @@ def parse_text(known: Setting, text: str) -> Any:
     """
     if known.kind is bool:
         return {"true": True, "false": False}.get(text.lower(), text)
-    if known.kind in (int, float, tuple[int, int], Factors) and NUMBER.fullmatch(text):
+    if known.kind in (int, float, tuple[int, int], NUMBERS, Factors) and NUMBER.fullmatch(text):
         number = float(text)
         return int(number) if number.is_integer() and "." not in text else number
     return text

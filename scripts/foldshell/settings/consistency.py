@@ -35,10 +35,32 @@ def check_sizing(sizing: Sizing, source: str) -> None:
                 else ""
             )
         )
+    _check_buildable(sizing, source)
     if sizing.utilization_min >= sizing.utilization_max:
         raise InputError(
             f"{source}: sizing.utilization_min: {sizing.utilization_min:g}: less than "
             f"utilization_max = {sizing.utilization_max:g} is allowed"
+        )
+
+
+def _check_buildable(sizing: Sizing, source: str) -> None:
+    """Check that thicknesses which can be built lie within the bounds."""
+    least, largest = 1e3 * sizing.least_thickness, 1e3 * sizing.largest_thickness
+    bounds = f"least_thickness_mm = {least:g} to largest_thickness_mm = {largest:g}"
+    step, listed = 1e3 * sizing.thickness_step, [1e3 * one for one in sizing.thickness_list]
+    if step and listed:
+        raise InputError(
+            f"{source}: sizing.thickness_step_mm: {step:g}: 0 is allowed beside a thickness_list_mm"
+        )
+    outside = [one for one in listed if not least * (1 - 1e-9) <= one <= largest * (1 + 1e-9)]
+    if outside:
+        raise InputError(
+            f"{source}: sizing.thickness_list_mm: {outside[0]:g}: values from {bounds} are allowed"
+        )
+    if step and int(largest / step * (1 + 1e-9)) * step < least * (1 - 1e-9):
+        raise InputError(
+            f"{source}: sizing.thickness_step_mm: {step:g}: no multiple of it lies from {bounds}: "
+            "a smaller step is allowed"
         )
 
 

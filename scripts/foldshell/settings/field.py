@@ -19,6 +19,9 @@ Factors = Mapping[str, Mapping[str, float]]
 Plain = dict[str, Any]
 """Settings as a file or Snakemake's `params` hold them: texts, numbers, lists and dicts."""
 
+NUMBERS = tuple[float, ...]
+"""Kind of a list of numbers in rising order."""
+
 T = TypeVar("T")
 
 _UNITS: dict[str, tuple[str, Callable[[float], float]]] = {
@@ -74,6 +77,8 @@ class Setting:
             return int(value)
         if self.kind == tuple[int, int]:
             return tuple(int(item) for item in value)
+        if self.kind == NUMBERS:
+            return tuple(_UNITS[self.unit][1](float(item)) for item in value)
         if self.kind == tuple[str, ...]:
             return (value,) if isinstance(value, str) else tuple(value)
         if self.kind == Factors:

@@ -4,7 +4,7 @@ from foldshell.settings.allowed import describe_allowed
 from foldshell.settings.check import COMBINATION_NAME, COMBINATIONS_MAX
 from foldshell.settings.design import DesignColumns
 from foldshell.settings.designs import NAME, NAME_ALLOWED, TAGS, TAGS_ALLOWED
-from foldshell.settings.field import Factors, Plain, Setting, list_groups, list_settings
+from foldshell.settings.field import NUMBERS, Factors, Plain, Setting, list_groups, list_settings
 from foldshell.settings.load_table import CASE_NAME
 from foldshell.settings.study import Settings
 
@@ -69,6 +69,8 @@ def _describe_setting(known: Setting) -> Plain:
     if known.kind == tuple[int, int]:
         items = {"type": "integer", **_bounds(known)}
         return {"type": "array", "minItems": 2, "maxItems": 2, "items": items, **rest}
+    if known.kind == NUMBERS:
+        return {"type": "array", "items": {"type": "number", **_bounds(known)}, **rest}
     if known.kind == tuple[str, ...]:
         items = {"enum": list(known.choices)} if known.choices else {"minLength": 1}
         items = {"type": "string", **items}

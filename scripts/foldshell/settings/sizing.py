@@ -44,6 +44,24 @@ class Sizing(Group):
         meaning="Largest relative change of a thickness in one iteration by the rule optimality; "
         "panels that turn back get less.",
     )  # fmt: skip
+    thickness_step: float = setting(
+        0, unit="mm", minimum=0, maximum=1000, stages=("start", *_LOOP),
+        meaning="Thicknesses that can be built are multiples of this (5 or 10 mm, say): each step "
+        "of the loop is rounded up to them, thickness classes are too; 0 for any thickness.",
+    )  # fmt: skip
+    thickness_list: tuple[float, ...] = setting(
+        (), unit="mm", above=0, maximum=10000, stages=("start", *_LOOP),
+        meaning="The thicknesses that can be built, in rising order; empty for any.",
+    )  # fmt: skip
+    symmetry: str = setting(
+        "none", choices=("none", "x", "y", "both"), stages=("start", "size", "study"),
+        meaning="Panels that mirror each other about the middle of x, of y or of both stand in one "
+        "group of the first workbook, and take one thickness.",
+    )  # fmt: skip
+    analyse_only: bool = setting(
+        False, stages=_VERDICT,
+        meaning="Analyse the first workbook as it is, judge it by the limits, and size nothing.",
+    )  # fmt: skip
     utilization_min: float = setting(
         0.6, minimum=0, maximum=10, stages=_LOOP,
         meaning="Lower end of the dead band, and least value of the largest utilization.",

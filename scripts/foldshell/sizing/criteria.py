@@ -1,12 +1,13 @@
 """When the sizing loop stops, and with what verdict (Table 3 of Tsiamis et al. 2018)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from foldshell.records.analysis import Criteria, Criterion
 from foldshell.settings.sizing import Sizing
 from foldshell.sizing.constraints import NEED_CONSTRAINTS, least_factor_due
+from foldshell.sizing.panel_limits import PanelLimits, bound_panels
 
 LAST_ITERATION = 99
 """Iterations are numbered with two digits."""
@@ -17,6 +18,9 @@ by the rules that work on constraints: of slow rules a single change says little
 
 GOVERNS = 0.97
 """Share of its limit from which displacement or buckling counts as what governs."""
+
+NO_LIMITS = ("utilization_min", "volume_change_m3", "volume_change_relative")
+"""Criteria of when to stop; the others are limits that a shell has to keep."""
 
 AT_LEAST = ("utilization_min", "buckling_factor")
 """Criteria whose value has to reach the limit; that of the others stays below it."""
@@ -46,6 +50,12 @@ class IterationState:
     edge_beam: float | None = None
     buckling_factor: float | None = None
     counted_from: int = 0
+    limits: PanelLimits | None = None
+
+    @property
+    def fixed(self) -> np.ndarray:
+        """Whether a person has fixed each panel, (P,) bool."""
+        return np.zeros(len(self.thickness), bool) if self.limits is None else self.limits.fixed
 
 
 @dataclass(frozen=True)
@@ -65,7 +75,7 @@ def judge_iteration(now: IterationState, sizing: Sizing) -> Verdict:
     if now.state == "unstable":
         return _judge_unstable(now, sizing)
     criteria = evaluate_criteria(now, sizing)
-    change = criteria.volume_change_relative.value
+    change = criteria.volume_change_relative and criteria.volume_change_relative.value
     small = change is not None and change < _small_change(sizing)
     stationary_iterations = now.previous_stationary + 1 if small else 0
     quiet = stationary_iterations >= STATIONARY_ITERATIONS
@@ -79,6 +89,10 @@ def _judge_criteria(
     """Return the verdict on an analysis with displacements, and its reason."""
     open_names = criteria.open_names
     failing = _describe(now, sizing, criteria, open_names)
+    if sizing.analyse_only:
+        met = now.state == "ok" and not open_names
+        words = "all limits are met" if met else failing or now.reason
+        return "converged" if met else "not_converged", f"analysed as given; {words}"
     if now.state == "ok" and not open_names and (quiet or _ends_at_once(sizing)):
         return "converged", "all criteria are met"
     if now.state == "ok" and open_names == ["utilization_min"]:
@@ -91,6 +105,8 @@ def _judge_criteria(
             return "at_minimum_thickness", reason
     if now.state == "ok" and open_names and _unchanged(now):
         return "not_converged", f"no panel changes any more; {failing}"
+    if now.state == "ok" and (stuck := _find_stuck(now, sizing, criteria)):
+        return "not_converged", f"{stuck}; {failing}"
     if used_up := _count_up(now, sizing):
         return "not_converged", f"{used_up}; {failing or 'not stationary'}"
     return "continue", failing or now.reason or "not stationary yet"
@@ -126,6 +142,19 @@ def _find_governing(now: IterationState, sizing: Sizing, criteria: Criteria) -> 
     return "; ".join([*words, "all other limits are met"]) if words else ""
 
 
+def _find_stuck(now: IterationState, sizing: Sizing, criteria: Criteria) -> str:
+    """Say that fixed panels cannot hold, once the others have settled; empty where they can."""
+    over = np.flatnonzero(now.fixed & (now.utilization > sizing.utilization_max))
+    change = criteria.volume_change_relative
+    if now.fixed.all() and any(name not in NO_LIMITS for name in criteria.open_names):
+        return "every panel is fixed, and they cannot hold"
+    if not len(over) or (now.utilization[~now.fixed] > sizing.utilization_max).any():
+        return ""
+    if not (change.met and criteria.displacement_vertical_m.met):
+        return ""
+    return f"fixed panels cannot hold: {', '.join(map(str, over[:8].tolist()))}"
+
+
 def _count_up(now: IterationState, sizing: Sizing) -> str:
     """Say that no iteration is left, empty where one is."""
     since = f" since the edit of iteration {now.counted_from}" if now.counted_from else ""
@@ -136,13 +165,13 @@ def _count_up(now: IterationState, sizing: Sizing) -> str:
 
 def evaluate_criteria(now: IterationState, sizing: Sizing) -> Criteria:
     """Return those of Table 3, the relative change of volume, the edge beam's where there is one,
-    and the buckling factor where it is asked for."""
+    and the buckling factor where it is asked for; limits alone where nothing is sized."""
     highest = float(now.utilization.max())
     limit = now.span / sizing.displacement_limit_span_over
     change = None if now.previous_volume is None else abs(now.volume - now.previous_volume)
     relative = None if change is None else change / now.previous_volume
     least, beam = sizing.utilization_min, now.edge_beam
-    return Criteria(
+    found = Criteria(
         **{name_measure(sizing): _below(highest, sizing.utilization_max, closed=True)},
         utilization_min=Criterion(value=highest, limit=least, met=highest >= least),
         displacement_vertical_m=_below(now.displacement, limit),
@@ -153,6 +182,7 @@ def evaluate_criteria(now: IterationState, sizing: Sizing) -> Criteria:
         ),
         buckling_factor=_stable(now.buckling_factor, sizing.buckling_factor_min),
     )
+    return replace(found, **dict.fromkeys(NO_LIMITS)) if sizing.analyse_only else found
 
 
 def _stable(factor: float | None, least: float) -> Criterion | None:
@@ -175,9 +205,11 @@ def _below(value: float | None, limit: float, closed: bool = False) -> Criterion
 
 
 def _judge_unstable(now: IterationState, sizing: Sizing) -> Verdict:
+    if sizing.analyse_only:
+        return Verdict("unstable", f"analysed as given; {now.reason}", Criteria(), 0)
     if used_up := _count_up(now, sizing):
         return Verdict("unstable", f"{used_up}; {now.reason}", Criteria(), 0)
-    if (now.thickness >= sizing.largest_thickness).all():
+    if (now.thickness >= bound_panels(now.limits, now.thickness, *sizing.bounds)[1]).all():
         largest = f"{1e3 * sizing.largest_thickness:g} mm"
         reason = f"{now.reason} at the largest thickness of {largest}"
         return Verdict("unstable", reason, Criteria(), 0)
@@ -185,7 +217,8 @@ def _judge_unstable(now: IterationState, sizing: Sizing) -> Verdict:
 
 
 def _thinnest(now: IterationState, sizing: Sizing) -> bool:
-    return bool((now.thickness <= sizing.least_thickness).all())
+    least, _ = bound_panels(now.limits, now.thickness, *sizing.bounds)
+    return bool((now.thickness <= least).all())
 
 
 def _unchanged(now: IterationState) -> bool:

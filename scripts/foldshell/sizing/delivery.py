@@ -7,13 +7,12 @@ from dataclasses import replace
 from foldshell.records.analysis import AnalysisRecord, LastIteration, ShellState
 from foldshell.records.analysis_arrays import AnalysisArrays
 from foldshell.sizing.case import AnalysisCase
+from foldshell.sizing.criteria import NO_LIMITS
 from foldshell.sizing.iteration import IterationTask
+from foldshell.sizing.panel_limits import limits_of
 
 UNFINISHED = ("not_converged", "unstable")
 """Verdicts of loops that did not end where they wanted to."""
-
-NO_LIMITS = ("utilization_min", "volume_change_m3", "volume_change_relative")
-"""Criteria of when to stop; the others are limits that a shell has to keep."""
 
 
 def choose_delivered(analyses: Sequence[AnalysisRecord]) -> int:
@@ -73,9 +72,9 @@ def complete_delivered(
     analysis, which inside the loop it need not have been.
     """
     record, arrays = delivered
-    task = IterationTask(
-        record.iteration, span, arrays.thickness, *(before or (None, None)), record.edited_panels
-    )
+    previous = before or (None, None)
+    own = record.edited_panels, limits_of(arrays)
+    task = IterationTask(record.iteration, span, arrays.thickness, *previous, *own)
     found, fields = case.run(task, alone=True)
     known = {one.name: getattr(found, one.name) for one in fields_of(ShellState)}
     more = {name: getattr(found, name) for name in ("criteria", "model_warnings")}

@@ -21,6 +21,7 @@ from foldshell.shell.results import (
     support_reactions,
     translations,
 )
+from foldshell.sizing.panel_limits import bound_panels, name_limits
 
 if TYPE_CHECKING:
     from foldshell.sizing.iteration import AnalysisCase, IterationTask
@@ -71,6 +72,7 @@ def collect_arrays(done: Analysed) -> AnalysisArrays:
         buckling_modes=None if buckling is None else buckling.modes.astype(np.float32),
         edge_beam_panel=panels_beside_edge_beam(model) if beam else None,
         **named,
+        **name_limits(done.task.limits),
     )
 
 
@@ -103,7 +105,7 @@ def describe_sheet(done: Analysed, record: AnalysisRecord) -> AnalysisRecord:
     sums = map(tuple, reactions.sum(axis=0).T.tolist())
     sheet = slice(0, int((~model.self_weight_only).sum()))
     area, cell = model.operators.geometry.area[sheet], done.utilization.cell[sheet]
-    least, largest = sizing.least_thickness, sizing.largest_thickness
+    least, largest = bound_panels(done.task.limits, thickness, *sizing.bounds)
     at_bound = (thickness <= least) | (thickness >= largest)
     return replace(
         record,

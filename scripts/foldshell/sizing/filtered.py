@@ -28,16 +28,16 @@ def filtered_dead_band(state: SizingState, sizing: Sizing) -> SizingState:
     """
     if state.constraints is None or state.constraints.thinning is None:
         raise ValueError("the analysis holds no constraint gradients: it was made for another rule")
-    t, least, largest = state.thickness, sizing.least_thickness, sizing.largest_thickness
+    t = state.thickness
     wish = wish_of_band(state.utilization, sizing)
     wish = wish if state.may_thin else np.maximum(wish, 0)
-    grown = np.clip(t * (1 + state.step), least, largest)
+    grown = state.clip(t * (1 + state.step), sizing)
     thickness = np.where(wish > 0, grown, t)
-    thickness = np.where(wish < 0, np.clip(t * (1 - state.step), least, largest), thickness)
+    thickness = np.where(wish < 0, state.clip(t * (1 - state.step), sizing), thickness)
     if not _within(state.constraints, t, thickness, MARGIN):
         upper = np.maximum(thickness, t)
         upper = upper if _within(state.constraints, t, upper, 1.0) else np.maximum(upper, grown)
-        thinned = np.clip(t * (1 - state.step) ** state.constraints.thinning, least, largest)
+        thinned = state.clip(t * (1 - state.step) ** state.constraints.thinning, sizing)
         lower = np.where(wish < 0, thinned, np.maximum(thickness, t))
         thickness = minimise_volume(t, lower, upper, _relax(state.constraints, t, upper))
     change = thickness / t - 1

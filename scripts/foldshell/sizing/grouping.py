@@ -9,6 +9,7 @@ from foldshell.records.analysis_arrays import AnalysisArrays, ClassesArrays
 from foldshell.records.classes import ClassesRecord, ThicknessClass
 from foldshell.shell.effort import USUAL
 from foldshell.shell.results import panel_area
+from foldshell.sizing.buildable import list_buildable, round_up
 from foldshell.sizing.classes import ThicknessClasses, group_thicknesses
 from foldshell.sizing.iteration import AnalysisCase, IterationTask
 from foldshell.sizing.rounding import round_thickness
@@ -45,10 +46,10 @@ def analyse_classes(
     """
     area = panel_area(case.model)[: case.model.sized_panels]
     limit = case.sizing.utilization_max
-    needed = arrays.thickness
+    needed, buildable = arrays.thickness, list_buildable(case.sizing)
     before = AnalysisArrays(thickness=np.empty(0), buckling_modes=arrays.buckling_modes)
     for raised in range(ROUNDS_MAX + 1):
-        groups = group_thicknesses(needed, area, count)
+        groups = group_thicknesses(round_up(needed, buildable), area, count)
         thickness = round_thickness(groups.thickness)
         task = IterationTask(last.iteration, span, thickness, None, before)
         found, its_arrays = replace(case, factor_min=None).run(task, effort=USUAL)

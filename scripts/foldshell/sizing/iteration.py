@@ -38,13 +38,14 @@ from foldshell.sizing.describe import (
 )
 from foldshell.sizing.linearise import linearise_constraints
 from foldshell.sizing.model_check import find_warnings
+from foldshell.sizing.panel_limits import PanelLimits
 
 
 @dataclass(frozen=True)
 class IterationTask:
     """What one analysis of the loop works on; `thickness` (P,) m, `previous` what the analysis
     before found (None for the first), `edited_panels` those that a person has changed (None where
-    nobody has touched the workbook)."""
+    nobody has touched the workbook), `limits` what that person asks of panels."""
 
     iteration: int
     span: float
@@ -52,6 +53,7 @@ class IterationTask:
     previous: AnalysisRecord | None = None
     previous_arrays: AnalysisArrays | None = None
     edited_panels: tuple[int, ...] | None = None
+    limits: PanelLimits | None = None
 
     @property
     def modes(self) -> np.ndarray | None:
@@ -235,6 +237,7 @@ def _judge(done: Analysed, volume: float) -> Verdict:
             edge_beam=float(edge_beam.max()) if len(edge_beam) else None,
             buckling_factor=result.buckling and float(result.buckling.factors.min()),
             counted_from=task.counted_from,
+            limits=task.limits,
         ),
         sizing,
     )

@@ -2,15 +2,14 @@
 
 from dataclasses import dataclass
 
-import numpy as np
-
 from foldshell.records.analysis import AnalysisRecord
 from foldshell.records.analysis_arrays import AnalysisArrays
 from foldshell.settings.sizing import Sizing
 from foldshell.sizing.case import AnalysisCase
 from foldshell.sizing.delivery import choose_delivered, complete_delivered, describe_delivered
 from foldshell.sizing.iteration import IterationTask
-from foldshell.sizing.rounding import round_thickness
+from foldshell.sizing.panel_limits import PanelLimits
+from foldshell.sizing.start import start_thicknesses
 from foldshell.sizing.step import take_step
 
 
@@ -23,12 +22,15 @@ class LoopResult:
     arrays: AnalysisArrays
 
 
-def run_loop(case: AnalysisCase, span: float, sizing: Sizing) -> LoopResult:
+def run_loop(
+    case: AnalysisCase, span: float, sizing: Sizing, limits: PanelLimits | None = None
+) -> LoopResult:
     """Analyse and resize from the start thickness until a verdict ends the loop.
 
-    Every number equals that of the loop in files, to the last bit.
+    Every number equals that of the loop in files, to the last bit. `limits` are what the columns of
+    thickness.xlsx ask of panels.
     """
-    thickness = round_thickness(np.full(case.model.sized_panels, sizing.start_thickness))
+    thickness = start_thicknesses(case.model.sized_panels, sizing, limits)
     analyses: list[AnalysisRecord] = []
     states: list[AnalysisArrays] = []
     last = arrays = memory = None
@@ -36,7 +38,8 @@ def run_loop(case: AnalysisCase, span: float, sizing: Sizing) -> LoopResult:
         if last:
             step = take_step(last, arrays, memory, sizing)
             thickness, memory = step.thickness, step.memory
-        last, arrays = case.run_in_loop(IterationTask(len(analyses), span, thickness, last, arrays))
+        task = IterationTask(len(analyses), span, thickness, last, arrays, limits=limits)
+        last, arrays = case.run_in_loop(task)
         analyses.append(last)
         states.append(arrays)
     both = list(zip(analyses, states, strict=True))

@@ -30,8 +30,8 @@ def optimality(state: SizingState, sizing: Sizing) -> SizingState:
     if state.constraints is None:
         raise ValueError("the analysis holds no constraint gradients: it was made for another rule")
     lower = state.thickness * (1 - state.step) if state.may_thin else state.thickness
-    lower = np.clip(lower, sizing.least_thickness, sizing.largest_thickness)
-    upper = np.clip(state.thickness * (1 + state.step), lower, sizing.largest_thickness)
+    lower = state.clip(lower, sizing)
+    upper = np.maximum(state.clip(state.thickness * (1 + state.step), sizing), lower)
     thickness = minimise_volume(state.thickness, lower, upper, state.constraints)
     change = thickness / state.thickness - 1
     wish = np.where(np.abs(change) > CHANGE_LEAST, np.sign(change), 0).astype(np.int64)

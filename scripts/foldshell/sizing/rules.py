@@ -18,7 +18,8 @@ class SizingState:
     `step` is the relative step of each panel, `direction` its last change (-1, 0, 1),
     `sign_changes` how often that changed sign. `may_thin` tells whether thinning is allowed at all.
     `constraints` serve the rules that work on them, the largest relative step `step_max` the rule
-    `optimality` alone.
+    `optimality` alone. `least` and `largest` are the bounds of panels, None for those of the
+    settings.
     """
 
     thickness: np.ndarray
@@ -29,6 +30,14 @@ class SizingState:
     may_thin: bool = True
     constraints: Constraints | None = None
     step_max: float = np.inf
+    least: np.ndarray | None = None
+    largest: np.ndarray | None = None
+
+    def clip(self, thickness: np.ndarray, sizing: Sizing) -> np.ndarray:
+        """Return thicknesses (P,) m within the bounds of panels, or those of the settings."""
+        least = sizing.least_thickness if self.least is None else self.least
+        largest = sizing.largest_thickness if self.largest is None else self.largest
+        return np.clip(thickness, least, largest)
 
 
 def start_state(thickness: np.ndarray, step: float) -> SizingState:
@@ -61,19 +70,14 @@ def fully_stressed(state: SizingState, sizing: Sizing) -> SizingState:
 
 def thicken_all(state: SizingState, sizing: Sizing, step: float) -> SizingState:
     """Grow every panel by one step, as is done when a structure is unstable or too soft."""
-    thickness = np.minimum(state.thickness * (1 + step), sizing.largest_thickness)
-    return replace(state, thickness=thickness)
+    return replace(state, thickness=state.clip(state.thickness * (1 + step), sizing))
 
 
 def _step(state: SizingState, wish: np.ndarray, sizing: Sizing) -> SizingState:
     """Move each panel by its own step, which is halved after repeated changes of direction."""
     wish = wish if state.may_thin else np.maximum(wish, 0)
     following = turn(state, wish)
-    thickness = np.clip(
-        state.thickness * (1 + wish * following.step),
-        sizing.least_thickness,
-        sizing.largest_thickness,
-    )
+    thickness = state.clip(state.thickness * (1 + wish * following.step), sizing)
     return replace(following, thickness=thickness)
 
 

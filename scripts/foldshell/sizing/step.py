@@ -8,9 +8,18 @@ import numpy as np
 from foldshell.records.analysis import AnalysisRecord
 from foldshell.records.analysis_arrays import AnalysisArrays, StepMemory
 from foldshell.settings.sizing import Sizing
+from foldshell.sizing.buildable import list_buildable, round_up, step_to_buildable
 from foldshell.sizing.constraints import NEED_CONSTRAINTS, Constraints, read_constraints
 from foldshell.sizing.filtered import filtered_dead_band
 from foldshell.sizing.optimality import optimality
+from foldshell.sizing.panel_limits import (
+    PanelLimits,
+    bound_panels,
+    hold_limits,
+    index_groups,
+    limits_of,
+)
+from foldshell.sizing.pooling import pool_state, spread_state
 from foldshell.sizing.rounding import round_thickness
 from foldshell.sizing.rules import (
     SizingState,
@@ -20,7 +29,8 @@ from foldshell.sizing.rules import (
     thicken_all,
 )
 
-RULES: dict[str, Callable[[SizingState, Sizing], SizingState]] = {
+Rule = Callable[[SizingState, Sizing], SizingState]
+RULES: dict[str, Rule] = {
     "dead_band": dead_band,
     "filtered_dead_band": filtered_dead_band,
     "fully_stressed": fully_stressed,
@@ -37,11 +47,13 @@ def first_step(sizing: Sizing) -> float:
 
 @dataclass(frozen=True)
 class NextStep:
-    """Next thickness (P,) m, one note per panel, and the memory that the step after it needs."""
+    """Next thickness (P,) m, one note per panel, the memory that the step after it needs, and what
+    is asked of panels, which goes on holding."""
 
     thickness: np.ndarray
     note: tuple[str, ...]
     memory: StepMemory
+    limits: PanelLimits | None = None
 
 
 def take_step(
@@ -61,10 +73,12 @@ def take_step(
         memory,
         sizing,
         read_constraints(arrays),
+        limits_of(arrays),
     )
     new = round_thickness(following.thickness)
     relieving = _relieves_edge_beam(arrays, sizing) & (new > arrays.thickness)
-    return replace(following, thickness=new, note=_add_note(following.note, relieving))
+    note, limits = _add_note(following.note, relieving), limits_of(arrays)
+    return replace(following, thickness=new, note=note, limits=limits)
 
 
 def _relieves_edge_beam(arrays: AnalysisArrays, sizing: Sizing) -> np.ndarray:
@@ -104,6 +118,7 @@ def propose_thickness(
     memory: StepMemory | None,
     sizing: Sizing,
     constraints: Constraints | None = None,
+    limits: PanelLimits | None = None,
 ) -> NextStep:
     """Apply the sizing rule, or thicken everything where the state does not allow it.
 
@@ -118,10 +133,14 @@ def propose_thickness(
     utilization : (P,) by the chosen measure, None where the analysis gave none
     memory : of the step before; None at the start
     constraints : of the analysis, for rules in `NEED_CONSTRAINTS`
+    limits : what a person asks of panels
     """
     state = _restore(thickness, memory, first_step(sizing))
+    if limits is not None:
+        least, largest = bound_panels(limits, thickness, *sizing.bounds)
+        state = replace(state, least=least, largest=largest)
     if analysis.state != "ok":
-        return _recover(state, memory, sizing, analysis.reason)
+        return _recover(state, memory, sizing, analysis.reason, limits)
     factor = analysis.least_factor
     stiff = analysis.criteria.displacement_vertical_m.met
     safe = factor is None or factor >= sizing.thinning_buckling_factor_min
@@ -135,14 +154,28 @@ def propose_thickness(
         step_max=sizing.move_limit,
     )
     if not stiff and not (utilization > sizing.utilization_max).any():
-        following = thicken_all(state, sizing, sizing.step)
+        following = _advance(state, sizing, _thicken, limits)
         note = "displacement above its limit"
     else:
-        following = RULES[sizing.rule](state, sizing)
+        following = _advance(state, sizing, RULES[sizing.rule], limits)
         note = "" if state.may_thin else _explain(stiff)
-    return NextStep(
-        following.thickness, _notes(following, sizing, note), _memory(following, thickness, 0)
-    )
+    notes = _notes(following, sizing, note, limits)
+    return NextStep(following.thickness, notes, _memory(following, thickness, 0))
+
+
+def _thicken(state: SizingState, sizing: Sizing) -> SizingState:
+    return thicken_all(state, sizing, sizing.step)
+
+
+def _advance(state: SizingState, sizing: Sizing, rule: Rule, limits) -> SizingState:
+    """Apply a rule to groups of panels, and round up to thicknesses that can be built."""
+    member = None if limits is None else index_groups(limits)
+    own = state if member is None else pool_state(state, member)
+    following = rule(own, sizing)
+    buildable = list_buildable(sizing)
+    if buildable is not None:
+        following = step_to_buildable(own, following, buildable)
+    return following if member is None else spread_state(following, member, state)
 
 
 def _restore(thickness, memory: StepMemory | None, step: float) -> SizingState:
@@ -152,12 +185,17 @@ def _restore(thickness, memory: StepMemory | None, step: float) -> SizingState:
     return SizingState(thickness, unknown, memory.step, memory.direction, memory.sign_changes)
 
 
-def _recover(state, memory: StepMemory | None, sizing: Sizing, reason: str) -> NextStep:
+def _recover(state, memory: StepMemory | None, sizing: Sizing, reason: str, limits) -> NextStep:
     failures = int(memory.failures) + 1 if memory else 1
     stable = memory.stable if memory and memory.stable.size else None
     base = state.thickness if stable is None else stable
     steps = 1 if stable is None else failures
-    following = thicken_all(replace(state, thickness=base), sizing, (1 + sizing.step) ** steps - 1)
+    share = (1 + sizing.step) ** steps - 1
+    if limits is not None:
+        base = hold_limits(limits, state.clip(base, sizing), *sizing.bounds)
+    following = thicken_all(replace(state, thickness=base), sizing, share)
+    up = state.clip(round_up(following.thickness, list_buildable(sizing)), sizing)
+    following = replace(following, thickness=up)
     if sizing.rule in NEED_CONSTRAINTS:
         following = replace(following, step=following.step / 2)
     kept = np.empty(0) if stable is None else stable
@@ -179,8 +217,10 @@ def _explain(stiff: bool) -> str:
     return "no thinning: " + ("buckling factor" if stiff else "displacement")
 
 
-def _notes(state: SizingState, sizing: Sizing, note: str) -> tuple[str, ...]:
-    at_least = state.thickness <= sizing.least_thickness
-    at_most = state.thickness >= sizing.largest_thickness
+def _notes(state: SizingState, sizing: Sizing, note: str, limits) -> tuple[str, ...]:
+    least, largest = bound_panels(limits, state.thickness, *sizing.bounds)
+    at_least, at_most = state.thickness <= least, state.thickness >= largest
     words = np.where(at_least, "least thickness", np.where(at_most, "largest thickness", ""))
+    if limits is not None:
+        words = np.where(limits.fixed, "fixed", words)
     return tuple("; ".join(filter(None, (word, note))) for word in words.tolist())

@@ -10,6 +10,7 @@ import numpy.typing as npt
 from foldshell.pattern.folded_panels import list_panels, measure_middles, measure_panel_areas
 from foldshell.records.arrays import read_typed_arrays
 from foldshell.records.sheet_arrays import FoldedArrays
+from foldshell.sizing.panel_limits import PanelLimits, mirror_groups
 
 FloatArray = npt.NDArray[np.float64]
 IntArray = npt.NDArray[np.int64]
@@ -59,7 +60,8 @@ class PanelGrid:
 class ThicknessTable:
     """Columns of the sheet `thickness`, one value per panel in the order of ids.
 
-    thickness and previous in m, utilization and relative change without unit.
+    thickness and previous in m, utilization and relative change without unit; `limits` are what a
+    person asks of panels.
     """
 
     grid: PanelGrid
@@ -68,6 +70,7 @@ class ThicknessTable:
     utilization: FloatArray | None = None
     change: FloatArray | None = None
     note: tuple[str, ...] | None = None
+    limits: PanelLimits | None = None
 
 
 def make_panel_grid(zigzag_count: int, strip_count: int) -> PanelGrid:
@@ -93,3 +96,13 @@ def choose_panels(zigzag_count: int, strip_count: int, folded: Paths) -> PanelGr
     if folded:
         return list_sheet_panels(folded[0])
     return make_panel_grid(zigzag_count, strip_count)
+
+
+def mirror_panels(grid: PanelGrid, symmetry: str) -> PanelLimits | None:
+    """Return the groups of panels that mirror each other (`sizing.symmetry`), None for none.
+
+    Along a grid strips lie across x and zig-zags across y; other sheets are mirrored in plan.
+    """
+    if grid.area is None:
+        return mirror_groups(symmetry, grid.strip_index, grid.zigzag_index)
+    return mirror_groups(symmetry, *grid.middle.T[:2], np.sqrt(grid.area) / 2)

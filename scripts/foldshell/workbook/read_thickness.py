@@ -1,32 +1,64 @@
 """Read the thicknesses from a workbook that a person may have edited."""
 
-import re
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from foldshell.files.errors import InputError
 from foldshell.settings.nearest import hint_nearest
+from foldshell.settings.sizing import Sizing
+from foldshell.sizing.panel_limits import PanelLimits, find_conflict, hold_limits
 from foldshell.sizing.rounding import round_thickness
+from foldshell.workbook.cell_values import read_length, show_cell, to_number
 from foldshell.workbook.cells import Cell, read_cells
 from foldshell.workbook.package import open_package
 from foldshell.workbook.panels import FloatArray, PanelGrid
+from foldshell.workbook.read_limits import LIMIT_UNITS, read_limits
 
 SHEET = "thickness"
-_NUMBER = re.compile(r"[-+]?([0-9]+\.?[0-9]*|\.[0-9]+)([eE][-+]?[0-9]{1,3})?")
 _HEADER_ROWS = 200
-# Days since 1900 of the years 2000 to 2099: `3/4` typed into a number cell becomes 46085.
-_DATE_SERIALS = range(36526, 73051)
 Rows = dict[int, dict[int, Cell]]
 
 
+@dataclass(frozen=True)
+class PanelInput:
+    """Thickness (P,) m to be analysed, and what is asked of panels, None for nothing."""
+
+    thickness: FloatArray
+    limits: PanelLimits | None
+
+
+def read_panel_input(path: str | Path, grid: PanelGrid, sizing: Sizing) -> PanelInput:
+    """Return thickness and limits of every panel; the thickness within the limits.
+
+    A panel outside of its own bounds is taken at the bound, a group at its largest thickness.
+    Raises `InputError` as `read_thickness`, and for limits that contradict each other.
+    """
+    place, rows, first, columns = _open_table(path, grid)
+    thickness = _read_column(rows, first, columns, grid, sizing.bounds, place)
+    limits = read_limits(_find_rows(rows, first, columns), columns, grid.panel.size, sizing, place)
+    if limits is None:
+        return PanelInput(thickness, None)
+    words = find_conflict(limits, thickness, *sizing.bounds)
+    if words:
+        raise InputError(f"{place}: {words}")
+    return PanelInput(round_thickness(hold_limits(limits, thickness, *sizing.bounds)), limits)
+
+
 def read_thickness(path: str | Path, grid: PanelGrid, least: float, largest: float) -> FloatArray:
-    """Return the thickness (P,) in m of every panel, in the order of panel ids.
+    """Return the thickness (P,) in m of every panel as it is written, in the order of panel ids.
 
     Rows are found by the panel's id and columns by their header, so that shuffled rows, inserted
     columns and rows above the header do no harm. Raises `InputError` with sheet, cell, value and
     what is allowed for anything but one number from `least` to `largest` (m) a panel.
     """
+    place, rows, first, columns = _open_table(path, grid)
+    return _read_column(rows, first, columns, grid, (least, largest), place)
+
+
+def _open_table(path: str | Path, grid: PanelGrid) -> tuple[str, Rows, int, dict[str, int]]:
+    """Return the place in words, all cells, the row of the header and the columns by name."""
     package = open_package(path)
     sheets = package.find_sheets()
     if SHEET not in sheets:
@@ -34,9 +66,20 @@ def read_thickness(path: str | Path, grid: PanelGrid, least: float, largest: flo
         raise InputError(f"{path}: sheet {SHEET!r} is missing{hint}")
     rows = read_cells(package, SHEET, sheets[SHEET], grid.panel.size)
     place = f"{path}: sheet {SHEET}"
-    units = {"panel": "-", **dict.fromkeys(grid.indices, "-"), "thickness": "m"}
+    units = {"panel": "-", **dict.fromkeys(grid.indices, "-"), "thickness": "m", **LIMIT_UNITS}
     header_row, columns = _find_header(rows, units, place)
     _check_units(rows, header_row, columns, units, place)
+    return place, rows, header_row, columns
+
+
+def _read_column(
+    rows: Rows,
+    header_row: int,
+    columns: dict[str, int],
+    grid: PanelGrid,
+    bounds: tuple[float, float],
+    place: str,
+) -> FloatArray:
     thickness = np.full(grid.panel.size, np.nan)
     seen: dict[int, Cell] = {}
     for row in sorted(row for row in rows if row > header_row + 1):
@@ -45,7 +88,7 @@ def read_thickness(path: str | Path, grid: PanelGrid, least: float, largest: flo
             continue
         panel = _read_panel(cells["panel"], row, grid, seen, place)
         _check_indices(cells, panel, grid, place)
-        thickness[panel] = _read_value(cells["thickness"], panel, row, least, largest, place)
+        thickness[panel] = _read_value(cells["thickness"], panel, row, *bounds, place)
     missing = np.flatnonzero(np.isnan(thickness))
     if missing.size:
         raise InputError(
@@ -53,6 +96,16 @@ def read_thickness(path: str | Path, grid: PanelGrid, least: float, largest: flo
             "panels are): one row per panel is due"
         )
     return round_thickness(thickness)
+
+
+def _find_rows(rows: Rows, header_row: int, columns: dict[str, int]) -> dict[int, dict[int, Cell]]:
+    """Return the cells of each panel's row by column; the ids have been read before."""
+    found = {}
+    for row in rows:
+        cell = rows[row].get(columns["panel"])
+        if row > header_row + 1 and cell is not None:
+            found[int(to_number(cell))] = rows[row]
+    return found
 
 
 def _find_header(rows: Rows, units: dict[str, str], place: str) -> tuple[int, dict[str, int]]:
@@ -104,7 +157,7 @@ def _read_panel(
     count = grid.panel.size
     if number is None or not 0 <= number < count or number != int(number):
         raise InputError(
-            f"{place}: cell {cell.reference}: {_show(cell)}: unknown panel, 0 to {count - 1} "
+            f"{place}: cell {cell.reference}: {show_cell(cell)}: unknown panel, 0 to {count - 1} "
             "are allowed"
         )
     panel = int(number)
@@ -123,56 +176,17 @@ def _check_indices(cells: dict[str, Cell | None], panel: int, grid: PanelGrid, p
         cell, due = cells.get(name), int(index[panel])
         if cell is not None and to_number(cell) != due:
             raise InputError(
-                f"{place}: cell {cell.reference}: {_show(cell)}: {name} of panel {panel} is {due}"
+                f"{place}: cell {cell.reference}: {show_cell(cell)}: {name} of panel {panel} is "
+                f"{due}"
             )
 
 
 def _read_value(
     cell: Cell | None, panel: int, row: int, least: float, largest: float, place: str
 ) -> float:
-    allowed = f"a number in m from {least:g} to {largest:g} is allowed"
     if cell is None:
-        raise InputError(f"{place}: row {row}: the thickness of panel {panel} is empty: {allowed}")
-    number = to_number(cell)
-    if number is None or not least * (1 - 1e-12) <= number <= largest * (1 + 1e-12):
         raise InputError(
-            f"{place}: cell {cell.reference}: {_show(cell)}: {allowed}"
-            + _hint(cell, number, least, largest)
+            f"{place}: row {row}: the thickness of panel {panel} is empty: a number in m from "
+            f"{least:g} to {largest:g} is allowed"
         )
-    return min(max(number, least), largest)
-
-
-def to_number(cell: Cell) -> float | None:
-    """Return what a cell says as a number, also one that stands as text; None for anything else."""
-    if cell.kind == "number":
-        return float(cell.value)
-    if cell.kind == "text" and _NUMBER.fullmatch(cell.value.strip()):
-        return float(cell.value)
-    return None
-
-
-def _show(cell: Cell) -> str:
-    if cell.kind in ("number", "date", "percent") and isinstance(cell.value, float):
-        words = {"number": "", "date": "a date, ", "percent": "a percentage, "}
-        return f"{words[cell.kind]}{cell.value:.12g}"
-    if cell.kind in ("error", "no_value"):
-        return f"{'the error ' if cell.kind == 'error' else ''}{cell.value[:60]}"
-    return repr(cell.value[:60] if isinstance(cell.value, str) else cell.value)
-
-
-def _hint(cell: Cell, number: float | None, least: float, largest: float) -> str:
-    if number is not None:
-        if 1000 * least <= number <= 1000 * largest:
-            return f", the value looks like mm: write {number / 1000:.12g}"
-        dated = cell.kind == "number" and number in _DATE_SERIALS
-        return (
-            ", the value looks like a date that the spreadsheet made of the input" if dated else ""
-        )
-    text = cell.value.strip() if isinstance(cell.value, str) else ""
-    if re.fullmatch(r"[0-9]+,[0-9]+", text):
-        return f", write {text.replace(',', '.')} with a decimal point"
-    with_unit = re.fullmatch(r"([0-9]+(?:\.[0-9]+)?)\s*(mm|cm|m)", text)
-    if with_unit:
-        metres = float(with_unit[1]) / {"mm": 1000, "cm": 100, "m": 1}[with_unit[2]]
-        return f", write {metres:g} without a unit"
-    return ""
+    return read_length(cell, least, largest, place)

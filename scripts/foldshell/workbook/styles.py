@@ -73,6 +73,8 @@ _FORMATS: dict[str, Options] = {
     "change": {"num_format": "+0.0%;-0.0%;0.0%", "align": "right"},
     # Blue on pale yellow: the usual mark of a cell that a person may type into.
     "input": {"num_format": "0.0000", "font_color": "#0000FF", "bg_color": "#FFF9DB"},
+    "input_count": {"num_format": "0", "font_color": "#0000FF", "bg_color": "#FFF9DB"},
+    "input_text": {"align": "center", "font_color": "#0000FF", "bg_color": "#FFF9DB"},
     "good": {
         "bold": True,
         "indent": 1,

@@ -6,6 +6,7 @@ from typing import Any
 
 import numpy as np
 
+from foldshell.sizing.panel_limits import PanelLimits
 from foldshell.sizing.rounding import round_thickness
 from foldshell.workbook.panels import FloatArray, ThicknessTable
 from foldshell.workbook.styles import (
@@ -21,15 +22,28 @@ from foldshell.workbook.styles import (
 
 PANEL = ("panel", "-", "integer", 9.0)
 THICKNESS = ("thickness", "m", "input", 12.0)
+LIMIT_COLUMNS = [
+    ("fixed", "-", "input_text", 7.0),
+    ("least", "m", "input", 9.0),
+    ("largest", "m", "input", 9.0),
+    ("group", "-", "input_count", 7.0),
+]
 RESULT_COLUMNS = [
     ("previous", "m", "metre", 12.0),
     ("utilization", "-", "decimal", 12.0),
     ("change", "-", "change", 12.0),
     ("note", "", "text", 36.0),
 ]
+_LIMIT_HELP = {
+    "fixed": "yes: this panel keeps its thickness.",
+    "least": "Least thickness of this panel in m; empty for that of the settings.",
+    "largest": "Largest thickness of this panel in m; empty for that of the settings.",
+    "group": "A number from 1 on: panels of one number take one thickness.",
+}
 _HELP = (
     "The blue numbers of the sheet 'thickness' may be changed: type metres with a decimal point, "
-    "save, and run the workflow again. What follows this iteration is then computed anew."
+    "save, and run the workflow again. What follows this iteration is then computed anew. The "
+    "columns fixed, least, largest and group hold for it and for all iterations after it."
 )
 
 
@@ -69,6 +83,8 @@ def _write_panels(sheet: Any, styles: Styles, table: ThicknessTable, thickness: 
     values: list[Any] = [table.grid.panel, *(column[-1] for column in about), thickness]
     results = [table.previous, table.utilization, table.change, table.note]
     columns = [PANEL, *((name, unit, style, 9.0) for name, unit, style, _ in about), THICKNESS]
+    columns += LIMIT_COLUMNS
+    values += _list_limits(table.limits, thickness.size)
     if any(result is not None for result in results):
         columns += RESULT_COLUMNS
         values += [[None] * thickness.size if result is None else result for result in results]
@@ -78,6 +94,15 @@ def _write_panels(sheet: Any, styles: Styles, table: ThicknessTable, thickness: 
         plain = content.tolist() if isinstance(content, np.ndarray) else content
         for row, value in enumerate(plain, start=2):
             write_value(sheet, row, column, value, styles[style])
+
+
+def _list_limits(limits: PanelLimits | None, count: int) -> list[list[Any]]:
+    """Return the cells of what a person asks of panels, None for empty ones."""
+    if limits is None:
+        return [[None] * count] * len(LIMIT_COLUMNS)
+    fixed = ["yes" if one else None for one in limits.fixed.tolist()]
+    group = [one or None for one in limits.group.tolist()]
+    return [fixed, limits.least.tolist(), limits.largest.tolist(), group]
 
 
 def _mark_input(
@@ -103,4 +128,8 @@ def _mark_input(
         "error_message": f"Only {allowed} is allowed.",
     }
     sheet.data_validation(2, column, count + 1, column, rule)
-    mark_above(sheet, styles, (2, column + 2, count + 1, column + 2), limit)
+    for place, (title, words) in enumerate(_LIMIT_HELP.items(), start=column + 1):
+        note = {"validate": "any", "input_title": title, "input_message": words}
+        sheet.data_validation(2, place, count + 1, place, note)
+    used = column + len(LIMIT_COLUMNS) + 2
+    mark_above(sheet, styles, (2, used, count + 1, used), limit)

@@ -80,14 +80,18 @@ def test_sheets_headers_units_and_results(tmp_path):
         "zigzag",
         "strip",
         "thickness",
+        "fixed",
+        "least",
+        "largest",
+        "group",
         "previous",
         "utilization",
         "change",
         "note",
     )
-    assert rows[1][:7] == ("-", "-", "-", "m", "m", "-", "-")
+    assert rows[1][:11] == ("-", "-", "-", "m", "-", "m", "m", "-", "m", "-", "-")
     assert rows[2][0:3] == (0, 0, 0) and rows[13][0:3] == (11, 2, 3)
-    assert sheet["H3"].data_type == "s" and sheet["H3"].value == "=1+1"  # text stays text
+    assert sheet["L3"].data_type == "s" and sheet["L3"].value == "=1+1"  # text stays text
     assert sheet.freeze_panes == "B3"
     assert sheet.print_title_rows == "$1:$2"
     assert (sheet.page_setup.orientation, sheet.page_setup.paperSize) == ("landscape", 9)
@@ -98,14 +102,15 @@ def test_input_cells_are_marked_and_validated(tmp_path):
     path = write_case(tmp_path / "thickness.xlsx", utilization=np.ones(12))
     sheet = openpyxl.load_workbook(path)["thickness"]
     assert sheet["D3"].font.color.rgb == "FF0000FF" and sheet["A3"].font.color.rgb != "FF0000FF"
-    (rule,) = sheet.data_validations.dataValidation
+    rule, *prompts = sheet.data_validations.dataValidation
+    assert [one.promptTitle for one in prompts] == ["fixed", "least", "largest", "group"]
     assert (str(rule.sqref), rule.type) == ("D3:D14", "decimal")
     assert (float(rule.formula1), float(rule.formula2)) == (LEAST, LARGEST)
     assert "0.04 to 1" in rule.prompt and rule.showErrorMessage
     ((area, (condition,)),) = [
         (str(key.sqref), value) for key, value in sheet.conditional_formatting._cf_rules.items()
     ]
-    assert area == "F3:F14" and condition.operator == "greaterThan"
+    assert area == "J3:J14" and condition.operator == "greaterThan"
     assert float(condition.formula[0]) == 1.0
 
 
