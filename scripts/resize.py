@@ -39,11 +39,10 @@ def main(
     following = take_step(analysis, arrays, memory, sizing)
     new, old = following.thickness, arrays.thickness
     grid, used = choose_panels(zigzag, strip, folded), arrays.utilization(sizing.measure)
-    change, limits = new / old - 1, following.limits
-    table = ThicknessTable(grid, new, old, used, change, following.note, limits)
+    table = ThicknessTable(grid, new, old, used, new / old - 1, following.note, following.limits)
     write_typed_arrays(memory_path, following.memory)
     summary = summarise_step(design, analysis, sizing)
-    with recorded_workbook(workbook_path, record_path, new, limits) as temporary:
+    with recorded_workbook(workbook_path, record_path, new, following.limits) as temporary:
         write_thickness(temporary, table, summary, *sizing.bounds, sizing.utilization_max)
 
 
