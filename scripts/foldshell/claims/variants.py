@@ -45,7 +45,7 @@ def measure_variant(
         final, arrays = analyse_delivered(case, span, *read_iteration(*delivered[:2]))
     else:
         limits = mirror_panels(
-            make_panel_grid(layout.zigzag, layout.strip), changed.sizing.symmetry
+            make_panel_grid(layout.zigzag_count, layout.strip_count), changed.sizing.symmetry
         )
         result = run_loop(open_case(mesh_path, changed), span, changed.sizing, limits)
         final, arrays = result.final, result.arrays
