@@ -16,7 +16,7 @@ VARIABLE = ("imposed", "snow", "wind", "temperature")
 ACTIONS = (PERMANENT, *VARIABLE, SETTLEMENT)
 """Kinds of actions that the rules tell apart."""
 
-GENERATED_MAX = 200
+GENERATED_MAX = 120
 """Combinations of one purpose that a rule may make."""
 
 Combination = dict[str, float]

@@ -193,7 +193,7 @@ class _Subspace:
         if not len(vectors):
             return solved
         new = old + len(vectors)
-        if new > self._room.shape[1]:
+        while new > self._room.shape[1]:
             self._room = np.concatenate([self._room, np.empty_like(self._room)], axis=1)
         self._room[0, old:new], self._room[1, old:new] = vectors, forces
         self._count = new

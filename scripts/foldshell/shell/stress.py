@@ -66,7 +66,7 @@ def imposed_resultants(
     thickness (E,) m.
     """
     count, functions = len(thickness), operators.curvature.shape[1] // 3
-    scale = youngs_modulus * np.stack([thickness, thickness**3 / 12], axis=1)
+    scale = np.stack([thickness * youngs_modulus, thickness**3 * youngs_modulus / 12], axis=1)
     size = operators.elasticity[:2, :2].sum(axis=1)[0] * scale[:, :, None] * imposed
     parts = np.zeros((2, count, 3, functions, imposed.shape[2]))
     parts[:, :, :2, 0] = np.moveaxis(size, 1, 0)[:, :, None]
