@@ -12,7 +12,11 @@ from foldshell.checks.strength import (
 from foldshell.settings.material import Material
 
 CONCRETE, STEEL = "concrete", "steel"
-NAMES = {"von_mises": "von Mises", "rankine": "Rankine", "drucker_prager": "Drucker-Prager"}
+CRITERION_WORDS = {
+    "von_mises": "von Mises",
+    "rankine": "Rankine",
+    "drucker_prager": "Drucker-Prager",
+}
 
 
 @dataclass(frozen=True)
@@ -40,7 +44,7 @@ def choose_strength_check(material: Material, partial_factor: float) -> Strength
         return StrengthCheck(
             utilization_von_mises, divided, f"von Mises, {strength:.4g} MPa", "steel"
         )
-    criterion, words = CRITERIA[material.criterion], NAMES[material.criterion]
+    criterion, words = CRITERIA[material.criterion], CRITERION_WORDS[material.criterion]
     if material.criterion == "drucker_prager":
         criterion, words = utilization_capped_cone, f"{words} with a cap of compression"
     return StrengthCheck(criterion, divided, f"{words}, {strength:.4g} MPa", "strength")

@@ -68,7 +68,7 @@ def render_sheets(tiles: Sequence[Tile], limit: float) -> dict[str, Sheet]:
     }
     words = {
         "thickness": f"thickness [mm]; the darkest also for more, up to {thickness.max():.0f}",
-        "utilization": "utilization [-], largest of the strength combinations",
+        "utilization": "utilization of cells [-], largest of the strength combinations",
     }
     cameras = [fit_camera(_corners(tile.scene), TILE[0] / TILE[1]) for tile in tiles]
     sheets = {}

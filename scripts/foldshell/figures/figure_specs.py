@@ -78,7 +78,8 @@ def specify_nothing(view: DesignView, title: str, words: str) -> FigureSpec:
 
 def describe_verdict(report: AnalysisRecord) -> str:
     """Return verdict, count of analyses and reason as one line."""
-    words = f"{report.verdict.replace('_', ' ')} after {count_analyses(report)}"
+    verdict = report.verdict.replace("_", " ")
+    words = f"{verdict} by the paper's criteria after {count_analyses(report)}"
     return f"{words}: {report.reason}" if report.reason else words
 
 

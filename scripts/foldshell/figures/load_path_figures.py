@@ -97,7 +97,7 @@ def specify_isolines(view: DesignView) -> FigureSpec:
     words = f"largest of {state.strength[0]} to {state.strength[-1]}, means at the nodes of a panel"
     keys = [Key("solid", f"utilization {limit:g}", ABOVE)] if highest == limit else []
     spec = _specify_lines(view, "Utilization isolines", words, "", lines, keys)
-    quantity = f"utilization [-], a line each {highest / len(found):.3g}"
+    quantity = f"utilization of cells [-], a line each {highest / len(found):.3g}"
     above = "above" if highest == limit else ""
     return replace(spec, caption=replace(spec.caption, quantity=quantity, scale=scale, above=above))
 

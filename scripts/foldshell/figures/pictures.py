@@ -6,6 +6,7 @@ from dataclasses import replace
 import numpy as np
 from PIL import Image
 
+from foldshell.checks.materials import CRITERION_WORDS
 from foldshell.figures.camera import Camera, fit_camera
 from foldshell.figures.figure_specs import (
     DENSE,
@@ -169,7 +170,9 @@ def specify_utilization(view: DesignView) -> FigureSpec:
     )
     if len(state.edge_beam_thickness):
         facts += f"; edge beam at most {report.edge_beam_utilization_max:.2f}"
-    words = f"utilization [-], largest of {state.strength[0]} to {state.strength[-1]}"
+    criterion = CRITERION_WORDS[view.material.criterion]
+    combinations = f"{state.strength[0]} to {state.strength[-1]}"
+    words = f"utilization of cells by {criterion} [-], largest of {combinations}"
     if scale.limit is None:
         words += f" ({limit:g} is not reached)"
     above = f"to {values.max():.2f}" if values.max() > limit else "none"

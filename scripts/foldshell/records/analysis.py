@@ -84,6 +84,7 @@ DECIDES = {
     "strip": "utilization_strip_max",
 }
 """What the loop holds against the limit of utilization, by its measure."""
+NO_LIMIT = "no limit, for information"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -233,6 +234,15 @@ class AnalysisRecord(ShellState):
     last: LastIteration | None = entry(
         "the last iteration, where an earlier one is delivered; stands in final.json", left_out=True
     )
+
+    def describe_limit(self, key: str) -> str:
+        """Return the limit that a utilization is held against, or that it is for information;
+        nothing for other keys."""
+        if not key.startswith("utilization"):
+            return ""
+        held = next((name for name, decides in DECIDES.items() if decides == key), "")
+        item = getattr(self.criteria, f"utilization_{held}", None)
+        return NO_LIMIT if item is None else f"limit {item.limit:g}"
 
     @property
     def warning(self) -> str | None:

@@ -11,7 +11,6 @@ from foldshell.records.entry import COUNT, entry
 EngineeringVerdict = Literal["passes", "fails", "not_applicable"]
 Factors = dict[str, dict[str, float]]
 Vector = tuple[float, float, float]
-NO_LIMIT = "no limit, for information"
 
 
 @dataclass(frozen=True, kw_only=True)

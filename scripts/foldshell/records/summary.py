@@ -89,7 +89,7 @@ class SummaryRow:
     file_unit: str | None = _design("file_unit")
     utilization_strip_max: float | None = entry(
         "largest utilization of a facet or strip as a mean, by criterion and combinations of the "
-        "loop", "-", "utilization, largest strip", default=None,
+        "loop", "-", "utilization, largest strip mean", default=None,
     )  # fmt: skip
     rankine_panel_mean_max: float | None = entry(
         "the same as utilization_panel_mean_max by the criterion of Rankine: tension counts",

@@ -28,7 +28,7 @@ from foldshell.shell.placed_loads import place_loads
 from foldshell.shell.stiffness import ShellOperators
 
 QUANTITIES = {
-    "used": ("utilization [-]", "triangle"),
+    "used": ("utilization of cells [-]", "triangle"),
     "down": ("vertical displacement, down [mm]", "node"),
     "n1": ("larger principal membrane force of a panel [kN/m]", "panel"),
     "n2": ("lesser principal membrane force of a panel [kN/m]", "panel"),

@@ -5,8 +5,10 @@ from pathlib import Path
 
 import numpy as np
 
+from foldshell.checks.materials import CRITERION_WORDS
 from foldshell.files.errors import InputError
-from foldshell.records.engineering import NO_LIMIT, EngineeringCheck, EngineeringRecord
+from foldshell.records.analysis import NO_LIMIT
+from foldshell.records.engineering import EngineeringCheck, EngineeringRecord
 from foldshell.records.files import read_record
 from foldshell.report.checks import Check, describe_share
 from foldshell.report.markup import Table, make_table
@@ -69,11 +71,11 @@ def make_engineering(record: EngineeringRecord | None) -> list[Section]:
 def describe_measures(record: EngineeringRecord) -> str:
     """Return utilization of the final state under the loop's combinations, by each criterion."""
     words = [
-        f"{name.replace('_', ' ')}: largest panel mean {one.utilization_panel_mean_max:.3g}, "
+        f"{CRITERION_WORDS[name]}: largest panel mean {one.utilization_panel_mean_max:.3g}, "
         f"largest strip {one.utilization_strip_max:.3g}, {one.panels_above_one} panels above 1"
         for name, one in record.measures.items()
     ]
-    return f"Under the loop's own combinations {'; '.join(words)}." if words else ""
+    return f"Under the loop's own combinations: {'; '.join(words)}." if words else ""
 
 
 def tabulate_combinations(record: EngineeringRecord) -> Table:

@@ -221,7 +221,11 @@ def make_headlines(final: AnalysisRecord) -> Section:
     factors = final.buckling_factor
     words = ", ".join(f"{name} {format_number(value)}" for name, value in factors.items())
     note = f"Buckling factors: {words}" if words else ""
-    return _list_quantities(Section("Final state", note=note), HEADLINES, final)
+    section = _list_quantities(Section("Final state", note=note), HEADLINES, final)
+    keys = [key for key in HEADLINES if getattr(final, key) is not None]
+    rows = [(*row, final.describe_limit(key))
+            for key, row in zip(keys, section.table.rows, strict=True)]  # fmt: skip
+    return replace(section, table=make_table(("quantity", "value", "limit"), rows))
 
 
 def make_folding(quality: QualityRecord) -> Section:

@@ -158,8 +158,8 @@ def _utilization_fields(view: DesignView, grid: Grid) -> dict[str, tuple]:
     combinations = f"{state.strength[0]} to {state.strength[-1]}"
     found = {}
     for name, words, values, at in (
-        ("utilization", "utilization [-], largest of", grid.at_triangles(state.utilization),
-         "triangle"),
+        ("utilization", "utilization of cells [-], largest of",
+         grid.at_triangles(state.utilization), "triangle"),
         ("utilization_mean", "panel mean of utilization [-], largest of",
          state.panel_utilization, "panel"),
     ):  # fmt: skip

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from foldshell.checks.stability import require_factor
+from foldshell.checks.stability import RequiredFactor, require_factor
 from foldshell.checks.strength import CRITERIA
 from foldshell.checks.strips import utilization_of_strips
 from foldshell.checks.utilization import panel_utilization
@@ -26,6 +26,7 @@ from foldshell.results.engineering import Judged, judge_state
 from foldshell.results.engineering_state import EngineeringState, analyse_final_state
 from foldshell.results.section_forces import COMPONENTS, average_panels
 from foldshell.settings.checks import Checks
+from foldshell.settings.material import Material
 from foldshell.settings.stage import StageSettings
 from foldshell.shell.held_supports import sum_supports
 from foldshell.shell.nodal_loads import sum_loads
@@ -50,13 +51,43 @@ def check_final_state(
 ) -> tuple[EngineeringRecord, EngineeringArrays]:
     """Analyse the state of final.npz under the engineering combinations and judge it; span m.
 
-    `settings` are those of the stages `size` and `checks`, `shell` the arrays of mesh.npz.
+    `settings` are those of the stages `size` and `checks`, `shell` the arrays of mesh.npz. Loads of
+    which the code's rule makes no combinations leave the verdict not applicable.
     """
-    combinations, checks = engineering_combinations(settings.loads, settings.codes), settings.checks
+    checks = settings.checks
+    try:
+        combinations = engineering_combinations(settings.loads, settings.codes)
+    except ValueError as error:
+        return leave_open(str(error), settings.material, checks), EngineeringArrays()
     state = analyse_final_state(case, combinations, final.thickness, checks, final.buckling_modes)
     judged = judge_state(state, checks, span, errors, report.model_warnings or ())
     measures = measure_loop_state(state, final, len(settings.combinations.strength))
     return make_record(state, judged, checks, measures, shell)
+
+
+def leave_open(reason: str, material: Material, checks: Checks) -> EngineeringRecord:
+    """Return the record of a verdict that is not applicable: nothing was analysed."""
+    required = require_factor(checks, material.kind)
+    return EngineeringRecord(
+        verdict="not_applicable",
+        reason=reason,
+        material_kind=material.kind,
+        checks={},
+        buckling_terms=describe_terms(required),
+        loop_criterion=material.criterion,
+        measures={},
+        combinations=CombinationFactors(strength={}, characteristic={}, quasi_permanent={}),
+        buckling_factor={},
+        loads={},
+        reactions={},
+        analyses=0,
+        panels={},
+    )
+
+
+def describe_terms(required: RequiredFactor) -> dict[str, float]:
+    """Return the terms of the buckling factor that is required, their product and the factor."""
+    return {**asdict(required), "product": required.product, "required": required.value}
 
 
 def measure_loop_state(state: EngineeringState, final: AnalysisArrays, count: int) -> dict:
@@ -111,8 +142,7 @@ def make_record(
         reason=judged.reason,
         material_kind=state.case.material.kind,
         checks=dict(judged.checks),
-        buckling_terms={**asdict(required), "product": required.product,
-                        "required": required.value},
+        buckling_terms=describe_terms(required),
         loop_criterion=state.case.material.criterion,
         measures=dict(measures),
         combinations=CombinationFactors(**{

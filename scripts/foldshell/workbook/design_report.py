@@ -6,7 +6,7 @@ from typing import Any
 
 from foldshell.loads.cases import list_cases, make_load_cases
 from foldshell.loads.words import describe_load, unit_of
-from foldshell.records.analysis import AnalysisRecord
+from foldshell.records.analysis import NO_LIMIT, AnalysisRecord
 from foldshell.records.analysis_arrays import ClassesArrays
 from foldshell.records.classes import ClassesRecord
 from foldshell.records.design_row import DesignRow, make_design_row
@@ -100,12 +100,21 @@ def _list_verdict(
         Line("iterations", len(iterations.analyses)),
         *_describe_delivered(last),
         *describe_edits(iterations.analyses),
-        *make_lines(last, HEADLINES),
+        *_list_headlines(last),
         Line("least buckling factor", last.least_factor),
         Line("its combination", last.least_factor_combination),
         *_summarise_classes(grouped),
         Line("settings hash", last.settings_hash),
     ]
+
+
+def _list_headlines(last: AnalysisRecord) -> list[Line]:
+    """Return the numbers of a state; beside utilization stands its limit, or that it has none."""
+    lines = []
+    for key in HEADLINES:
+        for line in make_lines(last, (key,)):
+            lines.append(replace(line, unit=line.unit or last.describe_limit(key)))
+    return lines
 
 
 def _describe_design(design: Design) -> list[Line]:
@@ -152,9 +161,9 @@ def describe_engineering(record: EngineeringRecord) -> list[Line]:
         return lines
     return [
         *lines,
-        Line("utilization strip max", own.utilization_strip_max),
-        Line("Rankine, largest panel mean", rankine.utilization_panel_mean_max),
-        Line("Rankine, largest strip", rankine.utilization_strip_max),
+        Line("utilization, largest strip mean", own.utilization_strip_max),
+        Line("Rankine, largest panel mean", rankine.utilization_panel_mean_max, NO_LIMIT),
+        Line("Rankine, largest strip mean", rankine.utilization_strip_max, NO_LIMIT),
         Line("Rankine, panels above one", rankine.panels_above_one),
     ]
 

@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 
+from foldshell.checks.materials import CRITERION_WORDS
+from foldshell.records.analysis import NO_LIMIT
 from foldshell.records.engineering import (
-    NO_LIMIT,
     EngineeringArrays,
     EngineeringCheck,
     EngineeringRecord,
@@ -104,7 +105,7 @@ def _add_measures(sheet: Any, styles: Styles, row: int, record: EngineeringRecor
         sheet.write_string(row, column, name.replace("_", " "), style)
     sheet.set_row(row, 58)
     for line, (name, one) in enumerate(record.measures.items(), start=row + 1):
-        sheet.write_string(line, 0, name.replace("_", " "), styles["text"])
+        sheet.write_string(line, 0, CRITERION_WORDS[name], styles["text"])
         for column, key in enumerate(names[1:], start=1):
             sheet.write_number(line, column, getattr(one, key), styles["general"])
 
@@ -134,6 +135,8 @@ def _judge_column(name: str) -> tuple[str, str]:
 
 def add_panels(book: Any, styles: Styles, record: EngineeringRecord) -> None:
     """Add the sheet `panels`: a row per panel, and their volume as a formula."""
+    if not record.panels:
+        return
     sheet = add_sheet(book, "panels")
     columns = list_panel_columns(record)
     rows = list(zip(*(values for _, values in columns), strict=True))
@@ -146,7 +149,9 @@ def write_volume(
     sheet: Any, styles: Styles, first: int, record: EngineeringRecord, names: Sequence[str]
 ) -> None:
     """Write area and volume of all panels below a table, as formulas of its columns."""
-    count = len(record.panels["panel"])
+    count = len(record.panels.get("panel", ()))
+    if not count:
+        return
     area, thick = (np.array(record.panels[name]) for name in ("area_m2", "thickness_m"))
     ends = {name: _span(names.index(name), first, count) for name in ("area_m2", "thickness_m")}
     row = first + count + 1

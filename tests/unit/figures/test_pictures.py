@@ -170,7 +170,8 @@ def test_design_without_results_says_what_is_missing(tmp_path):
     assert "no membrane forces" in specify_principal_stress_lines(view).caption.lines[0]
     for spec in (specify_thickness, specify_displacement):
         assert spec(view).caption.lines[-1] == (
-            "unstable after 4 analyses: buckling factor 0.7 of S1 is below 1"
+            "unstable by the paper's criteria after 4 analyses: "
+            "buckling factor 0.7 of S1 is below 1"
         )
 
 
@@ -192,10 +193,10 @@ def test_long_words_are_broken_not_shrunk():
     assert all(font.getlength(line) <= 300 for line in lines)
     assert " ".join(lines) == text.strip()
     assert describe_verdict(make_analysis(verdict="not_converged", reason="", iteration=29)) == (
-        "not converged after 30 analyses"
+        "not converged by the paper's criteria after 30 analyses"
     )
     assert describe_verdict(make_analysis(verdict="unstable", reason="a mechanism")) == (
-        "unstable after 1 analysis: a mechanism"
+        "unstable by the paper's criteria after 1 analysis: a mechanism"
     )
 
 

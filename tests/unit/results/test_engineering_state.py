@@ -9,6 +9,7 @@ from foldshell.files.whole import read_arrays, read_json
 from foldshell.records.analysis import write_analysis
 from foldshell.records.analysis_arrays import AnalysisArrays
 from foldshell.records.arrays import write_typed_arrays
+from foldshell.results import engineering_record
 from foldshell.results.section_forces import average_panels
 from foldshell.shell.stress import stress_resultants
 from foldshell.sizing.case import open_case
@@ -129,3 +130,15 @@ def test_panel_means_of_a_constant_field_are_that_field(folder):
     area, panel = strips.area[rows], strips.panel[rows]
     due = [np.bincount(panel, area * own[:, k]) / np.bincount(panel, area) for k in range(3)]
     assert means[:, :3] == pytest.approx(np.stack(due, axis=1), rel=1e-9, abs=1e-9)
+
+
+def test_a_rule_that_makes_no_combinations_leaves_the_verdict_open(folder, monkeypatch):
+    """One sentence in the record; all files are there."""
+
+    def refuse(*_):
+        raise ValueError("the rule makes 900 combinations of these cases: at most 200 are allowed")
+
+    monkeypatch.setattr(engineering_record, "engineering_combinations", refuse)
+    found, arrays = checked(folder)
+    assert found["verdict"] == "not_applicable" and "900 combinations" in found["reason"]
+    assert not arrays and not found["checks"]
