@@ -94,6 +94,19 @@ class QualityRecord(QualityMeasures):
         "beyond its border, and the surface is taken to go on along its tangent",
         "m", "reach beyond the surface's border", left_out=True,
     )  # fmt: skip
+    outline_overlap: float | None = entry(
+        "intersection over union, in plan, of the cut sheet with what the outline leaves of the "
+        "whole one",
+        "-", "overlap of the cut sheet with its outline", left_out=True,
+    )  # fmt: skip
+    outline_overlap_shell: float | None = entry(
+        "the same of the shell mesh, whose short sides are collapsed",
+        "-", "overlap of the shell mesh with the outline", left_out=True,
+    )  # fmt: skip
+    outline_covered: float | None = entry(
+        "share of the outline's area that the sheet covers in plan",
+        "-", "share of the outline that the sheet covers", left_out=True,
+    )  # fmt: skip
     notes: tuple[str, ...] | None = entry(
         "what of the file of the sheet was mended or is to be known", left_out=True
     )

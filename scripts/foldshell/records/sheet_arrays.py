@@ -3,7 +3,8 @@
 Axes: V vertices, P panels, T facets; N nodes, E elements, L nodes of an element, G edges of facets,
 J nodes along one; S supported edges of facets, H supported nodes, B panels of an edge beam; R rows
 of a set of supports, Q vertices that they hold, W warnings of them; of any sheet D panels and one
-more, C corners of all panels, X sides of panels. In
+more, C corners of all panels, X sides of panels; of a sheet cut by an outline O corners of that,
+I vertices, U pieces and Y one more, Z corners of all pieces, M sides of pieces. In
 mesh.npz vertices, facets and panels of an edge beam stand after those of the sheet.
 """
 
@@ -47,6 +48,17 @@ class FoldedArrays:
     )
     panel_row: np.ndarray | None = array("P", "", "row of each panel, where the pattern has rows")
     panel_place: np.ndarray | None = array("P", "", "place of each panel in its row")
+    outline: np.ndarray | None = array("O, 2", "m", "corners of the outline that cut the sheet")
+    cut_vertices: np.ndarray | None = array(
+        "I, 3", "m", "vertices of the pieces as an outline cuts them; the panels are these with "
+        "short sides collapsed"
+    )  # fmt: skip
+    cut_flat: np.ndarray | None = array("I, 3", "m", "the same in the flat sheet")
+    cut_starts: np.ndarray | None = array("Y", "", "first corner of each piece in cut_corners")
+    cut_corners: np.ndarray | None = array("Z", "", "vertices of all pieces")
+    cut_panel: np.ndarray | None = array("U", "", "panel that each piece is sized with")
+    cut_edges: np.ndarray | None = array("M, 2", "", "vertices of each side between pieces")
+    cut_edge_kind: np.ndarray | None = array("M", "", "how each folds, as edge_kind")
 
 
 @dataclass(frozen=True, kw_only=True)

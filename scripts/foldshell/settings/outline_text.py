@@ -1,0 +1,23 @@
+"""Outlines and openings as texts of the table of designs: polygons in plan, or files of them."""
+
+from foldshell.settings.regions import Point, read_region
+
+OUTLINE_FORMATS = (".csv", ".tsv", ".txt", ".json", ".geojson", ".dxf", ".svg")
+"""Suffixes of files that may hold outlines, in small letters."""
+OUTLINE_ALLOWED = (
+    "none, `box x_min y_min x_max y_max`, `polygon x y, x y, x y` (m), or a file "
+    f"({', '.join(OUTLINE_FORMATS)})"
+)
+
+
+def is_outline_file(text: str) -> bool:
+    """Tell whether a text names a file of outlines."""
+    return text.lower().endswith(OUTLINE_FORMATS)
+
+
+def read_loops(text: str) -> tuple[tuple[Point, ...], ...]:
+    """Return the polygons of a text, one or several with ; between, corners in m.
+
+    Raises `ValueError`, which says what is wrong in some words.
+    """
+    return tuple(read_region(part.strip()).corners for part in text.split(";"))
