@@ -38,6 +38,12 @@ def sides(wildcards):
     return list(design.sides) if design.span_x else []
 
 
+def outline(wildcards):
+    """Return the columns outline and openings of a design."""
+    design = BY_NAME[wildcards.design]
+    return [design.outline, design.openings]
+
+
 def holding(wildcards):
     """Return the supports of a design: a word, or the rows of the set that it names."""
     return BY_NAME[wildcards.design].holding

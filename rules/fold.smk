@@ -20,6 +20,7 @@ rule fold:
     params:
         **of_design("surface", "span_m", "height_m", "fold_mode", "file_unit"),
         sides=sides,
+        outline=outline,
         settings=of_stage("fold"),
     message:
         "{wildcards.design}: folding onto the target surface"

@@ -34,7 +34,7 @@ def design_files(name):
     files += ["sheet.html", "checks/engineering.json"]
     files += [f"figures/{picture}.png" for picture in PICTURES]
     unfolded = [f"pattern/developable_pattern.{kind}" for kind in ("fold", "dxf", "svg")]
-    files += unfolded * (BY_NAME[name].fold_mode in ("exact", "rigid"))
+    files += unfolded * BY_NAME[name].has_developable
     return [f"{RESULTS}/{name}/{file}" for file in files]
 
 

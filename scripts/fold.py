@@ -1,17 +1,13 @@
-"""Rule fold: fold a crease pattern onto its target surface."""
+"""Rule fold: fold a crease pattern onto its target surface, and cut it to its outline."""
 
 from collections.abc import Sequence
 from pathlib import Path
 
 from foldshell.engine.job import run_job
 from foldshell.files.errors import named_errors
-from foldshell.folding.files import write_folded, write_folded_vtu, write_quality
-from foldshell.folding.fold import fold_sheet
-from foldshell.folding.fold_panels import fold_panels
-from foldshell.folding.panel_files import write_panels
+from foldshell.folding.fold_files import fold_to_files
 from foldshell.folding.targets import find_target
-from foldshell.pattern.fold_format import read_fold
-from foldshell.pattern.panel_fold_format import is_panel_fold, read_panel_fold
+from foldshell.pattern.outline import read_outline
 from foldshell.settings.fold import Fold
 from foldshell.settings.stage import Plain, read_stage
 
@@ -29,23 +25,20 @@ def main(
     fold_mode: str,
     file_unit: str = "m",
     sides: Sequence[float] = (),
+    outline: Sequence[str] = ("none", "none"),
     settings: Plain,
 ) -> None:
     """Read crease_pattern.fold; write folded.npz, folded.vtu and quality.json.
 
-    A sheet that does not reach its target is written too: quality.json tells its state.
+    A sheet that does not reach its target is written too: quality.json tells its state. `outline`
+    holds the columns outline and openings of the table.
     """
     chosen = read_stage(settings, Fold).fold
+    paths = folded_path, vtu_path, quality_path
     with named_errors(design):
+        cut = read_outline(*outline, file_unit)
         target = find_target(surface, span_m, height_m, file_unit, sides)
-        if is_panel_fold(fold_path):
-            panels = fold_panels(read_panel_fold(fold_path)[0], target, fold_mode, chosen)
-            return write_panels(folded_path, vtu_path, quality_path, panels)
-        sheet = read_fold(fold_path)
-        result = fold_sheet(sheet, target, fold_mode, chosen)
-    write_folded(folded_path, sheet, result)
-    write_folded_vtu(vtu_path, sheet, result)
-    write_quality(quality_path, result)
+        fold_to_files(fold_path, paths, target, fold_mode, chosen, cut)
 
 
 if "snakemake" in globals():

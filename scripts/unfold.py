@@ -2,14 +2,11 @@
 
 from pathlib import Path
 
-import numpy as np
-
 from foldshell.engine.job import run_job
-from foldshell.files.errors import InputError
-from foldshell.pattern.drawings import draw_pattern, write_dxf, write_svg
-from foldshell.pattern.fold_format import read_fold, write_fold
+from foldshell.folding.unfold_files import unfold_grid, unfold_panels
+from foldshell.pattern.drawings import write_drawings
+from foldshell.pattern.panel_fold_format import is_panel_fold
 from foldshell.pattern.sheet import FRAMES
-from foldshell.pattern.unfold import describe_true_sheet, name_flat_state
 from foldshell.records.arrays import read_typed_arrays
 from foldshell.records.sheet_arrays import FoldedArrays
 from foldshell.settings.exports import Drawings
@@ -31,20 +28,17 @@ def main(
     """Read crease_pattern.fold and folded.npz; write developable_pattern.fold, .dxf and .svg.
 
     The flat state is that of folded.npz: the unfolded panels in exact and rigid mode, else the
-    given pattern, as the files say. The folded shape is a frame after `frames` of its rigid path,
-    where panels can follow one. `settings` are those of stage `drawings`.
+    given pattern, as the files say; of a cut sheet its pieces. The folded shape is a frame after
+    `frames` of its rigid path, where panels can follow one. `settings` are those of `drawings`.
     """
     style = read_stage(settings, Drawings).drawings
-    sheet, folded = read_fold(pattern_path), read_typed_arrays(folded_path, FoldedArrays)
-    if (count := len(folded.vertices)) != (due := len(sheet.flat)):
-        raise InputError(f"{folded_path}: vertices: {count}: must be {due} as in {pattern_path}")
-    parts = np.linspace(0.0, 1.0, frames + 1)[:-1]
-    true = describe_true_sheet(sheet, folded.flat, folded.vertices, parts)
-    title = f"{design}, {name_flat_state(sheet.grid, folded, fold_mode)}"
-    drawing = draw_pattern(true.flat, true.grid, style.scale, title)
-    write_dxf(dxf_path, drawing, style.preset)
-    write_svg(svg_path, drawing, style.preset)
-    write_fold(fold_path, true, title)
+    folded = read_typed_arrays(folded_path, FoldedArrays)
+    if folded.zigzag is None or is_panel_fold(pattern_path):
+        drawing = unfold_panels(folded, fold_path, design, fold_mode, style.scale)
+    else:
+        paths = pattern_path, folded_path, fold_path
+        drawing = unfold_grid(*paths, folded, design, fold_mode, frames, style.scale)
+    write_drawings(drawing, dxf_path, svg_path, style.preset)
 
 
 if "snakemake" in globals():

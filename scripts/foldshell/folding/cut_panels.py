@@ -99,7 +99,7 @@ def _sides(polygons: Ragged) -> dict[tuple[int, int], list[int]]:
 
 
 def find_parts(polygons: Ragged) -> np.ndarray:
-    """Return the part (K,) that each polygon belongs to: parts are joined by sides."""
+    """Return the number (K,) of the part of each polygon: parts are joined by sides."""
     pairs = [own[:2] for own in _sides(polygons).values() if len(own) > 1]
     return join_groups(len(polygons), np.array(pairs, dtype=np.int64).reshape(-1, 2))
 

@@ -9,16 +9,19 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foldshell.files.errors import InputError
 from foldshell.files.meshes.triangles import cut_polygon
 from foldshell.pattern.cut import CutSheet
+from foldshell.pattern.facet_angles import (
+    ANGLES,
+    find_bad_facets,
+    measure_angles,
+    refuse_bad_facets,
+)
 
 SHORT = 0.1
 """Sides shorter than this, of the mean side of the whole sheet's panels, collapse."""
 SHORTER = (0.1, 0.15, 0.2, 0.3)
 """The same where facets are left outside `ANGLES`, one after the other, about those facets."""
-ANGLES = np.radians([4.0, 155.0])
-"""Least and largest angle of a facet that can be analysed."""
 COSINE = np.cos(np.radians(15.0))
 """Of the angle by which a polygon's normal may turn where a vertex leaves a plane."""
 
@@ -64,41 +67,12 @@ def make_shell_cut(cut: CutSheet, ell: float) -> ShellCut:
         rings.flatten(rings.find_bad(), share * ell)
         rings.refine(share * ell)
     facets, polygon = rings.cut_facets()
-    _refuse_bad(rings.vertices, facets)
+    refuse_bad_facets(rings.vertices, facets)
     return ShellCut(rings.vertices, facets, np.array(rings.origin)[polygon], tuple(rings.added))
-
-
-def measure_angles(vertices: np.ndarray, facets: np.ndarray) -> np.ndarray:
-    """Return the angles (F, 3) [rad] of facets (F, 3); vertices (V, 3) m."""
-    corners = vertices[facets]
-    one = np.roll(corners, -1, axis=1) - corners
-    two = np.roll(corners, 1, axis=1) - corners
-    sine = np.linalg.norm(np.cross(one, two), axis=2)
-    return np.arctan2(sine, (one * two).sum(axis=2))
 
 
 def _cut(ring: list[int], vertices: np.ndarray) -> np.ndarray:
     return np.array(ring)[None] if len(ring) == 3 else cut_polygon(vertices, np.array(ring))
-
-
-def _is_bad(vertices: np.ndarray, facets: np.ndarray) -> np.ndarray:
-    angles = measure_angles(vertices, facets)
-    return (angles.min(axis=1) < ANGLES[0]) | (angles.max(axis=1) > ANGLES[1])
-
-
-def _refuse_bad(vertices: np.ndarray, facets: np.ndarray) -> None:
-    bad = np.flatnonzero(_is_bad(vertices, facets))
-    if not len(bad):
-        return
-    angles = np.degrees(measure_angles(vertices, facets[bad]))
-    worst = int(np.maximum(angles.max(axis=1) - 155, 4 - angles.min(axis=1)).argmax())
-    place = ", ".join(f"{value:.3f}" for value in vertices[facets[bad[worst]]].mean(axis=0))
-    low, high = np.degrees(ANGLES)
-    raise InputError(
-        f"outline: it leaves {len(bad)} facets with angles below {low:g} or above {high:g} deg, "
-        f"the worst from {angles[worst].min():.1f} to {angles[worst].max():.1f} deg about ({place}) m: "
-        "move the outline a little there"
-    )
 
 
 class Rings:
@@ -128,11 +102,9 @@ class Rings:
     def find_bad(self) -> set[int]:
         """Return the polygons that have a facet outside `ANGLES`."""
         facets, polygon = self.cut_facets()
-        return set(polygon[_is_bad(self.vertices, facets)].tolist())
+        return set(polygon[find_bad_facets(self.vertices, facets)].tolist())
 
-    def collapse(
-        self, least: float, about: set[int], planes: dict[int, set[int]] | None
-    ) -> None:
+    def collapse(self, least: float, about: set[int], planes: dict[int, set[int]] | None) -> None:
         """Collapse sides shorter than `least` m of some polygons, the shortest first.
 
         A vertex goes to one that lies in all of its `planes`, to any where these are None.
@@ -201,7 +173,7 @@ class Rings:
         beyond, or, where its other angles are too small, give it to the polygon beyond if the
         corner lies nearer than `least` m to that side."""
         facets, polygon = self.cut_facets()
-        bad = _is_bad(self.vertices, facets)
+        bad = find_bad_facets(self.vertices, facets)
         touched: set[int] = set()
         for facet, k in zip(facets[bad].tolist(), polygon[bad].tolist(), strict=True):
             angles = measure_angles(self.vertices, np.array([facet]))[0]

@@ -42,6 +42,8 @@ class DesignRow:
     strip_grading: float | None = _column("strip_grading", form="general", default=None)
     span_x_m: float | None = _column("span_x_m", form="general", default=None)
     span_y_m: float | None = _column("span_y_m", form="general", default=None)
+    outline: str | None = _column("outline", default=None)
+    openings: str | None = _column("openings", default=None)
     folded: str | None = _column("folded", default=None)
     file_unit: str | None = _column("file_unit", default=None)
     loads: str | None = _column("loads", default=None)
@@ -57,6 +59,6 @@ def make_design_row(columns: Row) -> DesignRow:
     that there is none of, and loads that are the paper's."""
     known = {key: columns[key] for key in entries(DesignRow) if key in columns}
     sizes = ("edge_beam_depth_m", "edge_beam_thickness_m", *SILENT_AT_ZERO)
-    plain = {"folded": NONE, "file_unit": "m", "loads": PAPER}
+    plain = {"folded": NONE, "file_unit": "m", "loads": PAPER, "outline": NONE, "openings": NONE}
     none = {key: None for key, value in plain.items() if columns.get(key) == value}
     return DesignRow(**known | {key: columns.get(key) or None for key in sizes} | none)

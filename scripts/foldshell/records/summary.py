@@ -85,6 +85,8 @@ class SummaryRow:
     strip_grading: float | None = _design("strip_grading")
     span_x_m: float | None = _design("span_x_m")
     span_y_m: float | None = _design("span_y_m")
+    outline: str | None = _design("outline")
+    openings: str | None = _design("openings")
     folded: str | None = _design("folded")
     file_unit: str | None = _design("file_unit")
     utilization_strip_max: float | None = entry(

@@ -7,6 +7,7 @@ from foldshell.files.formats import FOLDED_FORMATS, PATTERN_FORMATS
 from foldshell.files.units import FACTORS
 from foldshell.settings.field import Group, list_settings, setting, settings_group
 from foldshell.settings.load_table import PAPER
+from foldshell.settings.outline_text import OUTLINE_FORMATS, is_outline_file
 from foldshell.settings.support_row import SUPPORTS, PlainRow, SupportRow
 
 Row = dict[str, str | int | float]
@@ -115,6 +116,16 @@ class DesignColumns(Group):
         "place of pattern and surface; span_m is then the shorter side of its plan where the cell "
         "is empty.",
     )  # fmt: skip
+    outline: str = setting(
+        NONE,
+        meaning="Polygon in plan that the folded sheet is cut to, such as `polygon x y, x y, x y` "
+        f"in m, or a file of it ({', '.join(OUTLINE_FORMATS)}); docs/outlines.md says more.",
+    )
+    openings: str = setting(
+        NONE,
+        meaning="Polygons in plan that are cut out of the folded sheet, with ; between, or a file "
+        "of them.",
+    )
     file_unit: str = setting(
         "m", choices=tuple(FACTORS),
         meaning="Unit of the coordinates in the files of a design; a file that declares another "
@@ -142,14 +153,26 @@ class Design(DesignColumns):
 
     @property
     def on_grid(self) -> bool:
-        """Whether panels are those of zig-zags and strips."""
-        return self.pattern in GRID_PATTERNS
+        """Whether panels are those of zig-zags and strips, and whole."""
+        return self.pattern in GRID_PATTERNS and not self.is_cut
+
+    @property
+    def is_cut(self) -> bool:
+        """Whether an outline or openings cut the sheet."""
+        return self.outline != NONE or self.openings != NONE
+
+    @property
+    def has_developable(self) -> bool:
+        """Whether a pattern is drawn of the folded sheet: it is unfolded, or cut."""
+        return self.fold_mode in ("exact", "rigid") or self.is_cut
 
     @property
     def files(self) -> tuple[str, ...]:
-        """The files that the design is made of: surface, pattern, folded sheet."""
+        """The files that the design is made of: surface, pattern, folded sheet, outlines."""
         named = ((self.surface, SURFACES), (self.pattern, (*PATTERNS, FOLDED)), (self.folded, ()))
-        return tuple(name for name, known in named if name not in (NONE, *known))
+        found = [name for name, known in named if name not in (NONE, *known)]
+        cuts = (name for name in (self.outline, self.openings) if is_outline_file(name))
+        return tuple(dict.fromkeys([*found, *cuts]))
 
     @property
     def sides(self) -> tuple[float, float]:
@@ -172,6 +195,7 @@ class Design(DesignColumns):
         row = self.to_row()
         silent = {key for key in SILENT_AT_ZERO if not row[key]}
         silent |= set() if self.files else {"folded", "file_unit"}
+        silent |= set() if self.is_cut else {"outline", "openings"}
         return {key: row[key] for key in row if key not in {"design", "tags"} | silent}
 
     @classmethod
@@ -183,7 +207,7 @@ class Design(DesignColumns):
         return cls(name=row["design"], tags=tags, **values)
 
 
-FILE_COLUMNS = ("surface", "pattern", "folded")
+FILE_COLUMNS = ("surface", "pattern", "folded", "outline", "openings")
 """Columns that may name a file."""
 _COLUMNS = list_settings(DesignColumns)
 COLUMNS = ("design", *(known.key for known in _COLUMNS.values()), "tags")

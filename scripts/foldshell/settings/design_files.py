@@ -10,6 +10,7 @@ from foldshell.files.meshes.read import FORMATS
 from foldshell.files.units import DECLARED
 from foldshell.settings.design import FOLDED, NONE, PATTERNS, SURFACES, Design
 from foldshell.settings.nearest import hint_nearest
+from foldshell.settings.outline_text import OUTLINE_ALLOWED, is_outline_file, read_loops
 
 
 def check_pattern(pattern: str, where: str) -> None:
@@ -40,6 +41,31 @@ def _check_name(
 def _check_there(name: str, column: str, where: str) -> None:
     if not Path(name).exists():
         raise InputError(f"{where}: {column}: {name!r}: no such file")
+
+
+def check_outline(design: Design, where: str) -> None:
+    """Raise `InputError` for an outline or openings that are neither polygons nor a file.
+
+    What a file of them holds is looked at where the sheet is cut.
+    """
+    for column in ("outline", "openings"):
+        text = getattr(design, column)
+        if text == NONE:
+            continue
+        if is_outline_file(text):
+            _check_there(text, column, where)
+            continue
+        try:
+            loops = read_loops(text)
+        except ValueError as error:
+            raise InputError(
+                f"{where}: {column}: {text[:80]!r}: {error}: {OUTLINE_ALLOWED} is allowed"
+            ) from None
+        if column == "outline" and len(loops) > 1:
+            raise InputError(
+                f"{where}: outline: {len(loops)} polygons: one is allowed, openings have a column "
+                "of their own"
+            )
 
 
 def settle_files(design: Design, given: Collection[str], where: str) -> Design:

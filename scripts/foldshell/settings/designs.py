@@ -10,7 +10,12 @@ from foldshell.files.errors import InputError
 from foldshell.settings.check import Reader, parse_text
 from foldshell.settings.consistency import check_thickness
 from foldshell.settings.design import COLUMNS, MIURA_COLUMNS, NONE, Design, DesignColumns
-from foldshell.settings.design_files import check_pattern, check_surface, settle_files
+from foldshell.settings.design_files import (
+    check_outline,
+    check_pattern,
+    check_surface,
+    settle_files,
+)
 from foldshell.settings.field import list_settings
 from foldshell.settings.nearest import hint_nearest
 from foldshell.settings.places import RESERVED
@@ -74,6 +79,7 @@ def _make_design(
     words = dict.fromkeys(tag.strip() for tag in tags.split(",") if tag.strip())
     columns = vars(settings.defaults) | given
     design = Design(name=cells["design"], tags=tuple(words), **columns)
+    check_outline(design, where)
     design = _settle_sides(settle_files(design, given, where), where)
     _check_edge_beam(design, where)
     _check_miura(design, settings, where)

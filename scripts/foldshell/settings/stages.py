@@ -69,10 +69,16 @@ def stage_parameters(settings: Settings, stage: str, design: Design | None = Non
     return chosen
 
 
+CUT_SUBDIVISIONS = 4
+"""Least subdivisions of the facets of a sheet that an outline cuts: fewer are up to 14 % low."""
+
+
 def choose_subdivisions(settings: Settings, design: Design) -> int:
-    """Return the refinement of a design's facets: a design tagged `demo` has its own."""
+    """Return the refinement of a design's facets: a design tagged `demo` has its own, one that is
+    cut by an outline at least `CUT_SUBDIVISIONS`."""
     demo = "demo" in design.tags
-    return settings.analysis.subdivisions_demo if demo else settings.analysis.subdivisions
+    chosen = settings.analysis.subdivisions_demo if demo else settings.analysis.subdivisions
+    return max(chosen, CUT_SUBDIVISIONS) if design.is_cut else chosen
 
 
 def hash_decisions(settings: Settings, design: Design) -> str:

@@ -15,6 +15,7 @@ from foldshell.records.arrays import (
 )
 from foldshell.records.sheet_arrays import MeshArrays
 from foldshell.settings.support_row import Holding
+from foldshell.shell.border import Border
 from foldshell.shell.boundary import join_holds, list_nodes, refuse_rigid_motion
 from foldshell.shell.edge_beams import EdgeBeam, facet_edges, free_edges, hang_edge_beam_panels
 from foldshell.shell.mesh import ShellMesh, build_mesh, edge_polyline_nodes
@@ -76,7 +77,8 @@ def mesh_folded_sheet(
 def _held_sheet(folded: Mapping[str, np.ndarray]) -> HeldSheet:
     facets = folded["facets"]
     labels = {name: folded[name] for name in LABELS if name in folded}
-    return HeldSheet(folded["vertices"], facets, _list_facet_panels(folded), labels)
+    panels = _list_facet_panels(folded)
+    return HeldSheet(folded["vertices"], facets, panels, labels, folded.get("outline"))
 
 
 def _list_facet_panels(folded: Mapping[str, np.ndarray]) -> np.ndarray:
@@ -97,6 +99,9 @@ def _pin_borders(folded: Mapping[str, np.ndarray], support: str) -> np.ndarray:
             f"support {support}: the sheet has no zig-zags and strips: all, or a set of supports, "
             "is allowed"
         )
+    if "cut_vertices" in folded:  # openings are no edge that a word could mean
+        outer = Border(folded["vertices"], facets, _list_facet_panels(folded)).outer
+        return np.sort(np.column_stack([outer, np.roll(outer, -1)]), axis=1)
     return np.sort(free_edges(facets, np.empty((0, 2), dtype=np.int64)), axis=1)
 
 
