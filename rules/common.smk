@@ -16,7 +16,7 @@ SECTOR_ANGLE_DEG = round(math.degrees(SETTINGS.pattern.sector_angle), 10)
 # analysis, so few of them should be.
 BEFORE_LOOP, AFTER_LOOP = 1, 2
 PICTURES = ["thickness", "classes", "utilization", "displacement", "planarity"]
-PICTURES += ["strain", "principal_stress_lines", "isolines", "buckling"]
+PICTURES += ["strain", "principal_stress_lines", "isolines", "buckling", "loads"]
 LOOP = f"{RESULTS}/{{design}}/sizing"
 STEP = f"{LOOP}/{{iteration}}"
 # Relative in the project's own folder, so that a moved project does not run anew.

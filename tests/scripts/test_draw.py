@@ -11,7 +11,7 @@ from foldshell.settings.make import make_settings
 from foldshell.settings.stages import stage_parameters
 
 NAMES = ("thickness", "classes", "utilization", "displacement", "planarity", "strain",
-         "principal_stress_lines", "isolines", "buckling")  # fmt: skip
+         "principal_stress_lines", "isolines", "buckling", "loads")  # fmt: skip
 SETTINGS = stage_parameters(make_settings({}), "size")
 SETTINGS |= {"combinations": COMBINATIONS, "figures": {"width_px": 480, "height_px": 360}}
 
@@ -25,8 +25,9 @@ def run(folder, paths, names=NAMES):
 
 
 def test_all_pictures_have_the_size_asked_for(tmp_path):
-    """Nine PNG files of 480 x 360, and the two VTU files."""
+    """Ten PNG files of 480 x 360, that of load cases higher, and the two VTU files."""
     images = run(tmp_path, write_case(tmp_path))
+    assert images.pop("loads").shape[0] > 360
     assert {image.shape for image in images.values()} == {(360, 480, 3)}
     assert (tmp_path / "design.vtu").stat().st_size > 1000
     assert (tmp_path / "design_lines.vtu").stat().st_size > 1000

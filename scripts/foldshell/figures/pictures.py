@@ -18,6 +18,7 @@ from foldshell.figures.figure_specs import (
     specify_nothing,
 )
 from foldshell.figures.layout import INK, Key, Note, compose, view_size
+from foldshell.figures.load_figures import draw_loads
 from foldshell.figures.load_path_figures import (
     specify_buckling,
     specify_isolines,
@@ -40,6 +41,8 @@ from foldshell.results.fields import choose_deflection
 from foldshell.results.isolines import find_region_border
 from foldshell.results.state import DesignState
 
+LOADS = "loads"
+"""The picture of load cases, a page of its own."""
 INSET = (0.32, 0.3)
 """Size of a close-up, as shares of the picture's."""
 UPWARD_MIN = 0.05
@@ -51,8 +54,9 @@ LIMIT_WIDTH = 3.5
 def draw_design(
     view: DesignView, size: tuple[int, int], names: Sequence[str]
 ) -> dict[str, Image.Image]:
-    """Return the named pictures (`PICTURES`) of a design, each of the given size in pixels."""
-    specs = {name: PICTURES[name](view) for name in names}
+    """Return the named pictures (`PICTURES`) of a design, each of the given size in pixels; that of
+    load cases is higher where there are many."""
+    specs = {name: PICTURES[name](view) for name in names if name != LOADS}
     whole, beside = view_size(size), (round((1 - INSET[0]) * size[0]), view_size(size)[1])
     frames = {name: beside if spec.close_up else whole for name, spec in specs.items()}
     cameras = {name: _aim(spec, frames[name]) for name, spec in specs.items()}
@@ -62,7 +66,8 @@ def draw_design(
         scenes, eyes = [specs[name].scene for name in chosen], [cameras[name] for name in chosen]
         images |= dict(zip(chosen, render_scenes(scenes, eyes, frame), strict=True))
     insets = _draw_close_ups(specs, size)
-    return {
+    own = {LOADS: draw_loads(view, size)} if LOADS in names else {}
+    return own | {
         name: compose(
             images[name], spec.caption, cameras[name].axes()[:2].T, size,
             _place_notes(spec, cameras[name], frames[name]), insets.get(name),

@@ -20,8 +20,13 @@ PICTURE_WIDTH, STILL_WIDTH = 530, 800
 """Pixels, about: of the pictures, and of the one in place of a 3D view that cannot be made."""
 STILLS = ("utilization", "thickness")
 """What that picture shows: the first of them that there is."""
-SHOWN = {"principal_stress_lines": "principal stress lines", "isolines": "utilization isolines",
-         "buckling": "buckling mode", "strain": "strain of the folding"}  # fmt: skip
+SHOWN = {
+    "loads": "load cases",
+    "principal_stress_lines": "principal stress lines",
+    "isolines": "utilization isolines",
+    "buckling": "buckling mode",
+    "strain": "strain of the folding",
+}
 """Pictures that the 3D view does not replace."""
 NOTHING_MORE = {"combinations": [], "quantities": [], "iterations": []}
 """Facts of a view that shows no single combination and no iteration."""

@@ -148,14 +148,19 @@ def describe_supports(design: Design) -> str:
 
 
 def _load_cases(cases: Sequence[Any], reactions: Reactions | None) -> Table:
-    """Return the load cases with their resultants, kN."""
-    known = (
-        dict(zip(reactions.cases, reactions.resultant.T.tolist(), strict=True)) if reactions else {}
-    )
-    rows = [(case.name, f"{case.words}: {case.size}", *(round(value, 1) + 0.0 for value in
-             known.get(case.name, ()))) for case in cases]  # fmt: skip
+    """Return the load cases with their resultants, kN, and moments about the origin, kNm."""
+    known = {}
+    if reactions:
+        sums = zip(reactions.cases, reactions.resultant.T, reactions.moment.T, strict=True)
+        known = {name: _round_sums(force, moment) for name, force, moment in sums}
+    rows = [(case.name, f"{case.words}: {case.size}", *known.get(case.name, ())) for case in cases]
     header = ["case", "load", *(f"sum {axis} [kN]" for axis in "xyz" if known)]
-    return make_table(header, rows)
+    return make_table([*header, *["moment x, y, z [kNm]"] * bool(known)], rows)
+
+
+def _round_sums(force: np.ndarray, moment: np.ndarray) -> tuple[Any, ...]:
+    words = ", ".join(f"{value + 0.0:.0f}" for value in np.round(moment).tolist())
+    return *(round(value, 1) + 0.0 for value in force.tolist()), words
 
 
 def _reactions(reactions: Reactions | None) -> Table:

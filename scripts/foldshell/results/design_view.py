@@ -1,10 +1,11 @@
 """What pictures, pages and exports of a design share: its final state, creases, limits."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
 
+from foldshell.loads.cases import SurfaceLoad, make_load_cases
 from foldshell.records.analysis import AnalysisRecord
 from foldshell.results.creases import Creases, find_creases
 from foldshell.results.fields import choose_strength, membrane_force_coefficients
@@ -22,13 +23,15 @@ from foldshell.shell.stiffness import ShellOperators, build_operators
 
 @dataclass(frozen=True)
 class DesignView:
-    """What all pictures of a design share; `span` m, `sizing` with the limits to judge by."""
+    """What all pictures of a design share; `span` m, `sizing` with the limits to judge by,
+    `loads` of the design's set."""
 
     state: DesignState
     creases: Creases
     span: float
     sizing: Sizing
     material: Material
+    loads: tuple[SurfaceLoad, ...] = ()
 
     @property
     def size(self) -> float:
@@ -67,7 +70,8 @@ def view_design(
     state: DesignState, settings: StageSettings, span: float, pattern: str
 ) -> DesignView:
     """Return the view of a design with the settings of stage `size`; span m."""
-    return make_design_view(state, span, settings.sizing, settings.material, pattern != "smooth")
+    view = make_design_view(state, span, settings.sizing, settings.material, pattern != "smooth")
+    return replace(view, loads=make_load_cases(settings.loads, settings.material.unit_weight))
 
 
 def count_analyses(report: AnalysisRecord) -> str:

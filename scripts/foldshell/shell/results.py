@@ -7,12 +7,23 @@ import numpy as np
 from foldshell.settings.material import Material
 from foldshell.shell.analysis import AnalysisResult, ShellModel
 from foldshell.shell.geometric import apply_geometric
+from foldshell.shell.stiffness import ShellOperators
 from foldshell.shell.stress import internal_forces, stress_resultants
 
 
 def panel_area(model: ShellModel) -> np.ndarray:
     """Return the mesh area of each panel, (P,) m2."""
     return np.bincount(model.mesh.panel, model.operators.geometry.area)
+
+
+def panel_centroids(operators: ShellOperators) -> tuple[np.ndarray, np.ndarray]:
+    """Return the centroid (P, 3) m of each panel, and the unit mean of its normals (P, 3)."""
+    panel, area = operators.mesh.panel, operators.geometry.area
+    corners = operators.mesh.nodes[operators.mesh.corners].mean(axis=1)
+    fields = np.concatenate([corners, operators.geometry.frame[:, 2]], axis=1) * area[:, None]
+    sums = np.stack([np.bincount(panel, column) for column in fields.T], axis=1)
+    normal = sums[:, 3:] / np.linalg.norm(sums[:, 3:], axis=1)[:, None]
+    return sums[:, :3] / np.bincount(panel, area)[:, None], normal
 
 
 def panels_beside_edge_beam(model: ShellModel) -> np.ndarray:
