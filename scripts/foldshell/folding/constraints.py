@@ -46,20 +46,20 @@ class PlanarPanels:
 
 @dataclass(frozen=True)
 class VertexAngles:
-    """r = sqrt(w) (sum_k s_k alpha_k - total) over the four panel angles of inner vertices.
+    """r = sqrt(w) (sum_k s_k alpha_k - total) over the d panel angles of inner vertices.
 
-    `corners` (4, N, 3) of (vertex, arm, arm); signs (1, 1, 1, 1) with total 2 pi is the angle
-    sum of a developable vertex, (1, -1, 1, -1) with total 0 Kawasaki's condition.
+    `corners` (d, N, 3) of (vertex, arm, arm) in turn; signs (1, 1, 1, 1) with total 2 pi is the
+    angle sum of a developable vertex of degree 4, (1, -1, 1, -1) with total 0 Kawasaki's condition.
     """
 
     corners: np.ndarray
-    signs: tuple[float, float, float, float]
+    signs: tuple[float, ...]
     total: float
     weight: float = 1.0
 
     @property
     def columns(self) -> np.ndarray:
-        """Unknowns (N, 15): the vertex, then its four neighbours in turn.
+        """Unknowns (N, 3 + 3 d): the vertex, then its neighbours in turn.
 
         Numbers 3 v + axis of the vertices' coordinates.
         """
@@ -67,17 +67,17 @@ class VertexAngles:
         return vertex_columns(np.stack(around, axis=1))
 
     def evaluate(self, vertices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Residual (N,) and derivatives (N, 15).
+        """Residual (N,) and derivatives (N, 3 + 3 d).
 
         vertices (V, 3) m; the residual has no unit, its derivatives are 1/m.
         """
         angles = measure_sectors(vertices, self.corners)
-        values = np.zeros((angles.shape[1], 5, 3))
+        values = np.zeros((angles.shape[1], 1 + len(self.signs), 3))
         for k, sign in enumerate(self.signs):
             by_one, by_two = differentiate_sectors(vertices, self.corners[k])
             values[:, 0] -= sign * (by_one + by_two)
             values[:, 1 + k] += sign * by_one
-            values[:, 1 + (k + 1) % 4] += sign * by_two
+            values[:, 1 + (k + 1) % len(self.signs)] += sign * by_two
         root = np.sqrt(self.weight)
         residual = np.asarray(self.signs) @ angles - self.total
         return root * residual, root * values.reshape(len(values), -1)

@@ -82,7 +82,7 @@ def measure_distances(points: np.ndarray, target: Target) -> np.ndarray:
 
 def vertex_columns(vertices: np.ndarray) -> np.ndarray:
     """Unknowns (m, 3 k) of rows that touch vertices (m, k)."""
-    return (3 * vertices[:, :, None] + np.arange(3)).reshape(len(vertices), -1)
+    return (3 * vertices[:, :, None] + np.arange(3)).reshape(len(vertices), 3 * vertices.shape[1])
 
 
 @dataclass(frozen=True)

@@ -133,12 +133,12 @@ def _hinge(
 ) -> tuple[np.ndarray, np.ndarray]:
     """Motion of the panel beyond an edge: the known motion after a turn about the flat edge."""
     unit = axis / np.linalg.norm(axis, axis=-1, keepdims=True)
-    local = _rotation(unit, np.asarray(angle))
+    local = rotate_about(unit, np.asarray(angle))
     offset = point - np.einsum("...cd,...d->...c", local, point)
     return turn @ local, np.einsum("...cd,...d->...c", turn, offset) + shift
 
 
-def _rotation(unit: np.ndarray, angle: np.ndarray) -> np.ndarray:
+def rotate_about(unit: np.ndarray, angle: np.ndarray) -> np.ndarray:
     """Rodrigues: rotations (..., 3, 3) about unit axes (..., 3)."""
     x, y, z = np.moveaxis(unit, -1, 0)
     zero = np.zeros_like(x)
@@ -164,7 +164,7 @@ def follow_path(
     placed, onto = [], folded
     for part, state in zip(reversed(parts), reversed(states), strict=True):
         onto = fit_onto(state.vertices, onto)
-        placed.insert(0, turn_towards(lay_level(onto, grid), onto, part))
+        placed.insert(0, turn_towards(lay_level(onto, grid.facets), onto, part))
     return placed, max(state.closure for state in states)
 
 
@@ -174,10 +174,10 @@ def fit_onto(vertices: np.ndarray, onto: np.ndarray) -> np.ndarray:
     All in m.
     """
     centre, there = vertices.mean(axis=0), onto.mean(axis=0)
-    return (vertices - centre) @ _fit_rotation(vertices - centre, onto - there) + there
+    return (vertices - centre) @ fit_turn(vertices - centre, onto - there) + there
 
 
-def _fit_rotation(points: np.ndarray, onto: np.ndarray) -> np.ndarray:
+def fit_turn(points: np.ndarray, onto: np.ndarray) -> np.ndarray:
     """Rotation R (3, 3) of least |points R - onto|, both (V, 3) about their means.
 
     W. Kabsch, Acta Crystallographica A32 (1976) 922: with U S V^T of the covariance, R = U V^T,
@@ -193,27 +193,27 @@ def turn_towards(vertices: np.ndarray, onto: np.ndarray, part: float) -> np.ndar
     All in m; the part has no unit.
     """
     centre = vertices.mean(axis=0)
-    turn = _fit_rotation(vertices - centre, onto - onto.mean(axis=0)).T
+    turn = fit_turn(vertices - centre, onto - onto.mean(axis=0)).T
     axis = np.array([turn[2, 1] - turn[1, 2], turn[0, 2] - turn[2, 0], turn[1, 0] - turn[0, 1]])
     length = np.linalg.norm(axis)
     if length > 0:
         angle = np.arctan2(length, np.trace(turn) - 1)
-        turn = _rotation(axis / length, part * angle)
+        turn = rotate_about(axis / length, part * angle)
     return (vertices - centre) @ turn.T + onto.mean(axis=0)
 
 
-def lay_level(vertices: np.ndarray, grid: Grid) -> np.ndarray:
+def lay_level(vertices: np.ndarray, facets: np.ndarray) -> np.ndarray:
     """Turn a state about its middle so that its facets face upwards on the mean.
 
-    vertices (V, 3) m, as returned.
+    vertices (V, 3) m, as returned; facets (F, 3).
     """
-    corners = vertices[grid.facets]
+    corners = vertices[facets]
     area = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]).sum(axis=0)
     axis = np.cross(area, [0.0, 0.0, 1.0])
     sine = np.linalg.norm(axis)
     if sine == 0:
         return vertices
-    tilt = _rotation(axis / sine, np.arctan2(sine, area[2]))
+    tilt = rotate_about(axis / sine, np.arctan2(sine, area[2]))
     centre = vertices.mean(axis=0)
     return (vertices - centre) @ tilt.T + centre
 

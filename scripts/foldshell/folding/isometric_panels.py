@@ -1,0 +1,66 @@
+"""Isometric mode of any crease pattern: no edge changes its length, panels bend across."""
+
+import numpy as np
+
+from foldshell.folding.constraints import Fairness
+from foldshell.folding.exact import measure_residual, project_vertices
+from foldshell.folding.exact_panels import hold_folded
+from foldshell.folding.isometric import STAGES, STRAIN
+from foldshell.folding.levenberg import minimise_terms
+from foldshell.folding.net import FoldNet
+from foldshell.folding.normal_equations import NormalEquations
+from foldshell.folding.panel_problem import build_net_terms
+from foldshell.folding.placement import measure_rounding, round_as_written
+from foldshell.folding.shape import Shape
+from foldshell.folding.soft_panels import Start
+from foldshell.folding.terms import Stretch, Target, Term
+from foldshell.settings.fold import Fold
+
+
+def bend_net(
+    net: FoldNet, start: Start, soft: np.ndarray, target: Target, settings: Fold
+) -> Shape:
+    """Bend a net towards its target, harden the lengths, project onto them.
+
+    A net that folds to a plane begins there; one that curls by itself with its soft shape (V, 3) m.
+    """
+    vertices, iterations, equations = (soft if start.curls else start.level), 0, None
+    for stretch, attraction, bending, fairness in STAGES:
+        terms = _list_stage(net, start, target, settings, (stretch, attraction, bending, fairness))
+        equations = equations or NormalEquations([t.columns for t in terms], vertices.size)
+        minimum = minimise_terms(
+            terms, vertices, max_iterations=settings.max_iterations,
+            cost_tolerance=settings.tolerance, step_tolerance=1e-9 * target.span,
+            equations=equations,
+        )  # fmt: skip
+        vertices, iterations = minimum.vertices, iterations + minimum.iterations
+    lengths = Stretch(net.facets.edges, net.lengths, 1.0)
+    projected = project_vertices([lengths], vertices)
+    if projected.residual > STRAIN:
+        relaxed = minimise_terms(
+            [lengths], vertices, max_iterations=500, cost_tolerance=0.0, step_tolerance=1e-9
+        )
+        iterations += relaxed.iterations
+        projected = project_vertices([lengths], relaxed.vertices)
+    written = round_as_written(projected.vertices, target)
+    residual = measure_residual([lengths], written)
+    allowed = STRAIN + 64 * measure_rounding(target) / net.reference
+    return Shape(written, net.flat, iterations + projected.iterations, residual <= allowed,
+                 f"edge lengths kept to {residual:.1e}", {"constraint_residual": residual})  # fmt: skip
+
+
+def _list_stage(
+    net: FoldNet, start: Start, target: Target, settings: Fold, stage: tuple[float, ...]
+) -> list[Term]:
+    """Terms of one stage: weights of stretch and attraction, share of bending, fairness."""
+    stretch, attraction, bending, fairness = stage
+    given = settings.weights
+    weights = given.changed(
+        stretch=stretch, hinge=bending * given.hinge, hinge_steep=bending * given.hinge,
+        neutral_fold=bending * given.neutral_fold, neutral_fold_steep=bending * given.neutral_fold,
+        attraction=attraction, plan_edge_steep=given.plan_edge,
+    )  # fmt: skip
+    terms = build_net_terms(net, target, start.attracted, start.plan, start.rest, weights)
+    if fairness and len(net.chains):
+        terms.append(Fairness(net.chains, net.reference, fairness))
+    return [*terms, hold_folded(net, stretch)]
