@@ -12,7 +12,7 @@ from foldshell.folding.isometric_panels import bend_net
 from foldshell.folding.net import FoldNet, make_net
 from foldshell.folding.panel_files import FoldedPanels, take_folded
 from foldshell.folding.panel_path import follow_net
-from foldshell.folding.panel_problem import align_plan, find_spans
+from foldshell.folding.panel_problem import FREE_BORDER, align_plan, find_spans
 from foldshell.folding.panel_quality import measure_panel_quality
 from foldshell.folding.placement import measure_rounding, place_vertices, round_as_written
 from foldshell.folding.quality import measure_coverage
@@ -47,7 +47,9 @@ def fold_panels(mesh: PanelMesh, target: Target | None, mode: str, settings: Fol
     quality = measure_panel_quality(
         folded, net.facets, distances[start.attracted], target.span
     )
-    cover = measure_coverage(start.vertices, net.facets.facets, target.span)
+    cover = 0.0  # a border that follows no side of the plan covers what it covers
+    if FREE_BORDER not in mesh.sets:
+        cover = measure_coverage(start.vertices, net.facets.facets, target.span)
     limits = settings.limits
     state, reason = judge_shape(
         shape, quality, allowed_rms(limits, mode), limits.plan_coverage * cover, mode

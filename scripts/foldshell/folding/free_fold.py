@@ -16,10 +16,11 @@ from foldshell.folding.panel_quality import count_turned
 from foldshell.folding.terms import Hinge, Stretch, Term
 from foldshell.pattern.angles import measure_hinges
 
-FRACTIONS = (0.02, 0.05, 0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9, 1.0)
+FRACTIONS = (0.02, 0.05, 0.1, 0.2, 0.35, 0.5, 0.75, 1.0)
 STRETCHES = (100.0, 1.0)
 """Weights of the sides against creases of CREASE; the softer one where folds turned over."""
 CREASE = 0.01
+EXACT_BELOW = 1e-6  # tolerance below which lengths are kept exactly at the end
 CLOSE = 1e-12  # strain at which lengths count as kept
 
 
@@ -33,14 +34,17 @@ class FreeState:
     iterations: int
 
 
-def fold_freely(net: FoldNet, share: float = 1.0, tolerance: float = 1e-8) -> FreeState:
+def fold_freely(
+    net: FoldNet, share: float = 1.0, tolerance: float = 1e-8, begun: np.ndarray | None = None
+) -> FreeState:
     """Fold a pattern from flat by `share` of its rest angles, then keep its lengths exactly.
 
-    `tolerance` ends the last step, as a fall of the cost over itself.
+    `tolerance` ends the last step, as a fall of the cost over itself; a fold that has `begun`
+    (V, 3) m goes on from there.
     """
     best = None
     for stretch in STRETCHES:
-        state = _fold(net, share, stretch, tolerance)
+        state = _fold(net, share, stretch, tolerance, begun)
         if best is None or state.turned < best.turned:
             best = state
         if not best.turned:
@@ -48,25 +52,28 @@ def fold_freely(net: FoldNet, share: float = 1.0, tolerance: float = 1e-8) -> Fr
     return best
 
 
-def _fold(net: FoldNet, share: float, stretch: float, tolerance: float) -> FreeState:
-    vertices, iterations, equations = net.flat, 0, None
+def _fold(
+    net: FoldNet, share: float, stretch: float, tolerance: float, begun: np.ndarray | None
+) -> FreeState:
+    vertices, iterations, equations = net.flat if begun is None else begun, 0, None
     size = float(np.ptp(net.flat, axis=0).max())
     lengths = Stretch(net.facets.edges, net.lengths, 1.0)
-    for part in FRACTIONS:
+    for part in FRACTIONS if begun is None else FRACTIONS[-1:]:
         last = part == FRACTIONS[-1]
         terms = list_free_terms(net, part * share * net.rest, stretch)
         equations = equations or NormalEquations([t.columns for t in terms], vertices.size)
         minimum = minimise_terms(
             terms, vertices, max_iterations=200 if last else 30, equations=equations,
-            cost_tolerance=tolerance if last else 1e-3, step_tolerance=1e-14 * size,
+            cost_tolerance=tolerance if last else 1e-2, step_tolerance=1e-14 * size,
         )  # fmt: skip
         vertices, iterations = minimum.vertices, iterations + minimum.iterations
-    kept = project_vertices([lengths], vertices)
-    if kept.residual <= CLOSE:
-        vertices = kept.vertices
+    if tolerance < EXACT_BELOW:
+        kept = project_vertices([lengths], vertices)
+        iterations += kept.iterations
+        vertices = kept.vertices if kept.residual <= CLOSE else vertices
     strain = float(np.abs(lengths.evaluate(vertices)[0]).max())
     turned = count_turned(measure_hinges(vertices, net.hinges.vertices), net.letters)
-    return FreeState(vertices, strain, turned, iterations + kept.iterations)
+    return FreeState(vertices, strain, turned, iterations)
 
 
 def list_free_terms(net: FoldNet, angles: np.ndarray, stretch: float) -> list[Term]:

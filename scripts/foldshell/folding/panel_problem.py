@@ -15,6 +15,7 @@ SAME_BOX = 0.999  # of the area of the box along the axes: a smaller one turns t
 CURLED = 0.05  # rise over size of the surface through a rest state, from which it is no plane
 FREE_BORDER = "free_border"
 """Name of the set by which a pattern says that its border follows no side of the plan."""
+GENTLY = 0.01  # of the weight of plan edges, for a border that is only kept from sliding away
 ATTRACT = "attract"
 """Name of the set of vertices by which a file says what is attracted."""
 
@@ -135,9 +136,14 @@ def list_plan_sides(net: FoldNet, plan: np.ndarray) -> list[tuple[int, int, np.n
 def hold_plan_sides(
     net: FoldNet, plan: np.ndarray, spans: tuple[float, float], weight: float
 ) -> PlanEdge:
-    """Hold every border vertex near its edge of the plan of size `spans` m; corners near both."""
+    """Hold every border vertex near its edge of the plan of size `spans` m; corners near both.
+
+    A border that is free of the plan's sides is held near its own place in `plan` (V, 2) m.
+    """
     if FREE_BORDER in net.mesh.sets:
-        weight = 0.0
+        rows = np.tile(net.border, 2)
+        axes = np.repeat([0, 1], len(net.border))
+        return PlanEdge(rows, axes, plan[rows, axes], net.reference, GENTLY * weight)
     sides = list_plan_sides(net, plan)
     vertices = [rows for _, _, rows in sides]
     axes = [np.full(len(rows), axis) for axis, _, rows in sides]
@@ -170,16 +176,6 @@ def lay_planar(shape: np.ndarray, target: Target) -> np.ndarray:
     centred = shape - 0.5 * (shape.min(axis=0) + shape.max(axis=0))
     inside = np.clip(centred[:, :2], -target.span / 2, target.span / 2)
     return centred + np.array([0.0, 0.0, target.evaluate_height(*inside.T).mean()])
-
-
-def lay_tangent(flat: np.ndarray, target: Target) -> np.ndarray:
-    """Lay a flat sheet (V, 3) m so that it touches the target over the middle of its plan."""
-    zero = np.zeros(1)
-    normal, height = target.find_normals(zero, zero)[0], target.evaluate_height(zero, zero)[0]
-    centred = align_plan(flat)
-    centred = centred - 0.5 * (centred.min(axis=0) + centred.max(axis=0))
-    across = np.array([normal[2], 0.0, -normal[0]]) / math.hypot(normal[0], normal[2])
-    return centred @ np.stack([across, np.cross(normal, across), normal]) + [0, 0, height]
 
 
 def build_net_terms(

@@ -1,8 +1,8 @@
 """Elastic mode of any crease pattern: soft springs from a planar rest state, or from flat on.
 
 A pattern that folds into a plane, as a Miura sheet does, is folded first and then laid on the
-target. One that curls by itself would have to be bent back so: it is laid flat on the target's
-middle, and both its folds and the pull to the target grow together.
+target. One that curls by itself would have to be bent back so: it is draped over the target
+unfolded, as arc lengths of its central sections, and its folds grow there.
 """
 
 from dataclasses import dataclass
@@ -13,12 +13,13 @@ from foldshell.folding.free_fold import fold_freely
 from foldshell.folding.levenberg import minimise_terms
 from foldshell.folding.net import FoldNet
 from foldshell.folding.panel_problem import (
+    align_plan,
     CURLED,
+    FREE_BORDER,
     build_net_terms,
     choose_attracted,
     lay_planar,
     lay_rest,
-    lay_tangent,
     measure_curl,
     place_on_target,
 )
@@ -31,10 +32,10 @@ from foldshell.settings.fold import Fold
 STEPS = ((0.2, 0.01), (0.4, 0.1), (0.6, 1.0), (0.8, 10.0), (1.0, 100.0))
 """Share of the folds and weight of the attraction, over a curling pattern's way to its target."""
 FIRST_FOLD = 0.3
-"""Of shut, to which folds turn that the pattern gives no angle for, until the target says more."""
+"""Of shut, to which folds are asked to turn where the pattern gives no angles: what they come to is
+where its folds are at rest, until the target says more."""
 ROUNDS = 2
-PROBE = 0.15
-"""Of shut, at which a pattern without angles is looked at: which vertices are low, does it curl."""
+PROBED = 1e-4  # fall of the cost at which a first look at the freely folded sheet ends
 
 
 @dataclass(frozen=True)
@@ -53,15 +54,22 @@ class Start:
 
 def start_net(net: FoldNet, target: Target, attract: str) -> Start:
     """Fold a net freely, see what is low and whether it curls, and lay it on the target."""
-    free = fold_freely(net, 1.0 if net.given else PROBE, 1e-16)
+    share = 1.0 if net.given else FIRST_FOLD
+    free = fold_freely(net, share, PROBED)
     shape = lay_rest(net, free.vertices)
     attracted = choose_attracted(net, shape, attract)
-    shape = lay_rest(net, free.vertices, attracted)
-    curls = not net.given or measure_curl(shape[attracted]) > CURLED
-    rest = net.rest if net.given else FIRST_FOLD * net.rest
+    curls = not net.given or measure_curl(lay_rest(net, shape, attracted)[attracted]) > CURLED
+    rest = net.rest
+    if not net.given:
+        rest = np.where(net.creases, measure_hinges(free.vertices, net.hinges.vertices), 0.0)
     if curls:
-        vertices = lay_tangent(net.flat, target)
-        return Start(attracted, vertices[:, :2], vertices, rest, True)
+        plan = align_plan(net.flat)
+        vertices = place_on_target(plan, attracted, target)
+        if FREE_BORDER in net.mesh.sets:
+            plan = shape - 0.5 * (shape.min(axis=0) + shape.max(axis=0))
+        return Start(attracted, plan[:, :2], vertices, rest, True)
+    free = fold_freely(net, 1.0, 1e-16, free.vertices)
+    shape = lay_rest(net, free.vertices, attracted)
     vertices = place_on_target(shape, attracted, target)
     return Start(attracted, shape[:, :2], vertices, rest, False, lay_planar(shape, target))
 
@@ -81,7 +89,8 @@ def fold_net_softly(net: FoldNet, start: Start, target: Target, settings: Fold) 
 
 def _fold_from_flat(net: FoldNet, start: Start, target: Target, settings: Fold) -> Shape:
     vertices, rest, iterations = start.vertices, start.rest, 0
-    for number in range(1 if net.given else ROUNDS):
+    rounds = 1 if net.given or FREE_BORDER in net.mesh.sets else ROUNDS
+    for number in range(rounds):
         steps = STEPS if number == 0 else STEPS[-1:]
         for share, attraction in steps:
             weights = settings.weights.changed(
@@ -98,9 +107,9 @@ def _fold_from_flat(net: FoldNet, start: Start, target: Target, settings: Fold) 
             )  # fmt: skip
             vertices, iterations = minimum.vertices, iterations + minimum.iterations
         if not net.given:  # take the folds that the target asks for on the mean
-            folds = net.directions * measure_hinges(vertices, net.hinges.vertices)
-            mean = float(np.clip(folds[net.creases], 0.02, np.pi).mean())
-            rest = mean * net.directions
+            folds = measure_hinges(vertices, net.hinges.vertices)[net.creases]
+            factor = float(folds @ rest[net.creases] / (rest[net.creases] ** 2).sum())
+            rest = max(factor, 0.1) * rest
     settled = minimum.converged or minimum.fall <= SETTLED
     return Shape(vertices, net.flat, iterations, settled, minimum.reason, {"cost": minimum.cost})
 

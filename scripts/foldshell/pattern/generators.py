@@ -22,6 +22,7 @@ def build_flat(
     rule: Rule,
     attract: np.ndarray | None = None,
     rows: list[tuple[int, int]] | None = None,
+    free_border: bool = False,
 ) -> PanelMesh:
     """Build a flat pattern of points (V, 2) m and panels, counter-clockwise.
 
@@ -38,6 +39,8 @@ def build_flat(
     sets = {}
     if attract is not None:
         sets["attract"] = np.flatnonzero(np.isin(used, attract))
+    if free_border:
+        sets["free_border"] = np.unique(edges[number == 1])
     labels = {}
     if rows:
         labels = {name: np.array(values, dtype=np.int64)
@@ -82,9 +85,9 @@ def make_fan(
     lengths: tuple[float, float],
     rings: int,
     spokes: int,
-    opening: float = math.radians(210),
+    opening: float = math.radians(120),
     inner: float = 0.3,
-    zigzag: float = 0.5,
+    zigzag: float = 0.8,
 ) -> PanelMesh:
     """Radial Miura: zig-zag rings between straight spokes, over an `opening` [rad].
 
@@ -113,7 +116,7 @@ def make_fan(
     panels, places = _grid_panels(rings, spokes)
     panels = [row[::-1] for row in panels]
     even = np.flatnonzero(i % 2 == 0)
-    return build_flat(points, panels, rule, even, places)
+    return build_flat(points, panels, rule, even, places, free_border=True)
 
 
 def make_yoshimura(
