@@ -17,6 +17,7 @@ rule pattern:
     params:
         **of_design("pattern", "surface", "span_m", "height_m", "zigzag", "strip"),
         **of_design("rest_fold_angle_deg", "strip_grading", "folded", "file_unit"),
+        **of_design("opening_angle_deg", "take_up"),
         sides=sides,
         sector_angle_deg=sector_angle_deg,
         settings=of_stage("drawings"),

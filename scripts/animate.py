@@ -3,8 +3,17 @@
 from pathlib import Path
 
 from foldshell.engine.job import run_job
-from foldshell.folding.animation import draw_states, list_states, write_animation, write_stills
+from foldshell.files.errors import named_errors
+from foldshell.folding.animation import (
+    draw_panel_states,
+    draw_states,
+    list_states,
+    write_animation,
+    write_stills,
+)
+from foldshell.folding.panel_states import list_path
 from foldshell.pattern.fold_format import read_fold
+from foldshell.pattern.panel_fold_format import is_panel_fold, read_panel_fold
 
 
 def main(
@@ -15,8 +24,13 @@ def main(
     seconds_per_frame: float = 0.2,
 ) -> None:
     """Read crease_pattern.fold or developable_pattern.fold; write the path as GIF and stills."""
-    sheet = read_fold(fold_path)
-    images = draw_states(list_states(sheet), sheet.grid)
+    if is_panel_fold(fold_path):
+        mesh, frames = read_panel_fold(fold_path)
+        with named_errors(Path(fold_path).name):
+            images = draw_panel_states(list_path(mesh, frames), mesh)
+    else:
+        sheet = read_fold(fold_path)
+        images = draw_states(list_states(sheet), sheet.grid)
     if stills_folder:
         write_stills(stills_folder, images)
     write_animation(gif_path, images, seconds_per_frame)

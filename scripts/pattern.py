@@ -10,7 +10,7 @@ from foldshell.pattern.design import design_sheet
 from foldshell.pattern.drawings import draw_pattern, write_drawings
 from foldshell.pattern.fold_format import write_fold
 from foldshell.pattern.make_panels import make_panels, write_panel_pattern
-from foldshell.settings.design import GRID_PATTERNS, NONE
+from foldshell.settings.design import GRID_PATTERNS, NONE, OTHER_PARAMETERS
 from foldshell.settings.exports import Drawings
 from foldshell.settings.stage import Plain, read_stage
 
@@ -39,9 +39,9 @@ def main(
     with named_errors(design):
         target = find_target(surface, span_m, height_m, file_unit, sides)
         if pattern not in GRID_PATTERNS:
-            counts = zigzag, strip
-            mesh = make_panels(pattern, folded, file_unit, target, counts, sector_angle_deg)
+            mesh = make_panels(pattern, folded, file_unit, target, (zigzag, strip), **form)
             return write_panel_pattern(mesh, fold_path, dxf_path, svg_path, design, style)
+        form = {key: form[key] for key in form if key not in OTHER_PARAMETERS}
         lengths, form["turning"] = target.section_lengths(), measure_turning(target)
         sheet = design_sheet(pattern, lengths, zigzag, strip, sector_angle_deg, **form)
     drawing = draw_pattern(sheet.flat, sheet.grid, style.scale, f"{design}, crease pattern")

@@ -34,7 +34,7 @@ def main(
     style = read_stage(settings, Drawings).drawings
     folded = read_typed_arrays(folded_path, FoldedArrays)
     if folded.zigzag is None or is_panel_fold(pattern_path):
-        drawing = unfold_panels(folded, fold_path, design, fold_mode, style.scale)
+        drawing = unfold_panels(folded, fold_path, design, fold_mode, style.scale, frames)
     else:
         paths = pattern_path, folded_path, fold_path
         drawing = unfold_grid(*paths, folded, design, fold_mode, frames, style.scale)

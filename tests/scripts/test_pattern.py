@@ -33,7 +33,7 @@ def test_same_input_gives_the_same_bytes(tmp_path):
         ({"sector_angle_deg": 90.0}, "sector_angle_deg"),
         ({"sector_angle_deg": 0.0}, "sector_angle_deg"),
         ({"surface": "dome"}, "dome"),
-        ({"pattern": "waterbomb"}, "waterbomb"),
+        ({"pattern": "kirigami"}, "kirigami"),
         ({"span_m": -1.0}, "span"),
         ({"height_m": 0.0}, "height"),
     ],

@@ -1,12 +1,15 @@
 """Pictures of a folding path: one still a state, and all of them as an animated GIF."""
 
 from collections.abc import Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
 
 from foldshell.files.whole import atomic_path
+from foldshell.folding.panel_quality import make_facet_net
 from foldshell.pattern.grid import Grid
+from foldshell.pattern.panel_mesh import PanelMesh
 from foldshell.pattern.sheet import Sheet
 
 COLOURS = ("#d9c7a0", "#b7a27a")  # panels by parity of their column
@@ -18,16 +21,28 @@ def draw_states(states: Sequence[np.ndarray], grid: Grid) -> list[np.ndarray]:
 
     States are centred in plan, so that the sheet closes towards its middle.
     """
+    parity = np.repeat(grid.strip_index[grid.quads[:, 0]] % 2, 2)
+    return _render(states, grid.facets, parity, grid.edges[grid.assignments != "F"])
+
+
+def draw_panel_states(states: Sequence[np.ndarray], mesh: PanelMesh) -> list[np.ndarray]:
+    """Render states (V, 3) [m] of panels that are no grid, as `draw_states` does."""
+    flat = make_facet_net(replace(mesh, rest=None, folded=None))
+    return _render(states, flat.facets, flat.facet_panel % 2, mesh.edges)
+
+
+def _render(
+    states: Sequence[np.ndarray], facets: np.ndarray, parity: np.ndarray, lines: np.ndarray
+) -> list[np.ndarray]:
+    """Images of facets (F, 3) coloured by their parity (F,), with lines (K, 2) on them."""
     import pyvista
 
     centred = [s - [*(0.5 * (s.min(axis=0) + s.max(axis=0)))[:2], s[:, 2].min()] for s in states]
     reach = max(np.abs(state).max() for state in centred)
-    parity = grid.strip_index[grid.quads[:, 0]] % 2
     plotter = pyvista.Plotter(off_screen=True, window_size=list(SIZE))
-    mesh = pyvista.PolyData.from_regular_faces(centred[0], grid.facets)
-    mesh.cell_data["column"] = np.repeat(parity, 2)
+    mesh = pyvista.PolyData.from_regular_faces(centred[0], facets)
+    mesh.cell_data["column"] = parity
     plotter.add_mesh(mesh, scalars="column", cmap=list(COLOURS), show_scalar_bar=False)
-    lines = grid.edges[grid.assignments != "F"]
     cells = np.column_stack([np.full(len(lines), 2), lines]).ravel()
     creases = pyvista.PolyData(centred[0].copy(), lines=cells)
     plotter.add_mesh(creases, color="black", line_width=1.5)

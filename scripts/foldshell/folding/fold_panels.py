@@ -44,12 +44,10 @@ def fold_panels(mesh: PanelMesh, target: Target | None, mode: str, settings: Fol
     shape = replace(shape, vertices=round_as_written(shape.vertices, target))
     distances = measure_distances(shape.vertices, target)
     folded = replace(net.mesh, flat=shape.flat, folded=shape.vertices)
-    quality = measure_panel_quality(
-        folded, net.facets, distances[start.attracted], target.span
-    )
+    quality = measure_panel_quality(folded, net.facets, distances[start.attracted], target.sides)
     cover = 0.0  # a border that follows no side of the plan covers what it covers
     if FREE_BORDER not in mesh.sets:
-        cover = measure_coverage(start.vertices, net.facets.facets, target.span)
+        cover = measure_coverage(start.vertices, net.facets.facets, target.sides)
     limits = settings.limits
     state, reason = judge_shape(
         shape, quality, allowed_rms(limits, mode), limits.plan_coverage * cover, mode

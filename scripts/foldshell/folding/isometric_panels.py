@@ -17,9 +17,7 @@ from foldshell.folding.terms import Stretch, Target, Term
 from foldshell.settings.fold import Fold
 
 
-def bend_net(
-    net: FoldNet, start: Start, soft: np.ndarray, target: Target, settings: Fold
-) -> Shape:
+def bend_net(net: FoldNet, start: Start, soft: np.ndarray, target: Target, settings: Fold) -> Shape:
     """Bend a net towards its target, harden the lengths, project onto them.
 
     A net that folds to a plane begins there; one that curls by itself with its soft shape (V, 3) m.
@@ -45,8 +43,10 @@ def bend_net(
     written = round_as_written(projected.vertices, target)
     residual = measure_residual([lengths], written)
     allowed = STRAIN + 64 * measure_rounding(target) / net.reference
-    return Shape(written, net.flat, iterations + projected.iterations, residual <= allowed,
-                 f"edge lengths kept to {residual:.1e}", {"constraint_residual": residual})  # fmt: skip
+    reason = f"edge lengths kept to {residual:.1e}"
+    iterations += projected.iterations
+    measured = {"constraint_residual": residual}
+    return Shape(written, net.flat, iterations, residual <= allowed, reason, measured)
 
 
 def _list_stage(

@@ -35,7 +35,7 @@ class FoldNet:
 
     @property
     def letters(self) -> np.ndarray:
-        """Letter (H,) of each hinge."""
+        """Letter (H,) of each hinge, no number."""
         return self.facets.letters[self.hinges.edges]
 
     @property
@@ -45,7 +45,7 @@ class FoldNet:
 
     @property
     def directions(self) -> np.ndarray:
-        """1 for valleys, -1 for mountains (H,), 0 for others."""
+        """1 for valleys, -1 for mountains (H,), 0 for others, without unit."""
         return np.where(self.letters == "V", 1.0, np.where(self.letters == "M", -1.0, 0.0))
 
     @cached_property
@@ -69,7 +69,7 @@ class FoldNet:
 
     @cached_property
     def sectors(self) -> list[np.ndarray]:
-        """Sectors (d, N, 3) about vertices inside, by degree d."""
+        """Sectors (d, N, 3) about vertices inside, by degree d, as numbers of vertices."""
         return group_sectors(self.mesh.panels)
 
     @cached_property

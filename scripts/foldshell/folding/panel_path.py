@@ -1,8 +1,8 @@
 """The way of a true sheet of any panels from flat to its shape, without strain.
 
 Where all inner vertices have degree 4 and are flat-foldable the half tangents of all folds grow
-alike, and panels are turned about their sides. Others have more freedom: every fold is asked for the
-same share of its angle, and what comes of it is projected onto the lengths of the flat sheet.
+alike, and panels are turned about their sides. Others have more freedom: every fold is asked for
+the same share of its angle, and what comes of it is projected onto the lengths of the flat sheet.
 """
 
 from dataclasses import dataclass
@@ -51,7 +51,8 @@ def follow_net(
         states = []
         for part in parts:
             angles = scale_folds(folds, part)
-            named = {(min(e), max(e)): a for e, a in zip(ends.tolist(), angles.tolist(), strict=True)}
+            pairs = zip(ends.tolist(), angles.tolist(), strict=True)
+            named = {(min(end), max(end)): angle for end, angle in pairs}
             found = fold_net(flat, net.mesh.panels, named)
             states.append(found.vertices)
             gap = max(gap, found.closure)

@@ -156,7 +156,7 @@ def hold_plan_sides(
 
 def find_spans(target: Target) -> tuple[float, float]:
     """Return the sides of the plan along x and y, m."""
-    return getattr(target, "spans", (target.span, target.span))
+    return target.sides
 
 
 def place_on_target(placed: np.ndarray, attracted: np.ndarray, target: Target) -> np.ndarray:
@@ -174,7 +174,8 @@ def place_on_target(placed: np.ndarray, attracted: np.ndarray, target: Target) -
 def lay_planar(shape: np.ndarray, target: Target) -> np.ndarray:
     """Lay a planar rest state (V, 3) m over the plan at the mean height of the target."""
     centred = shape - 0.5 * (shape.min(axis=0) + shape.max(axis=0))
-    inside = np.clip(centred[:, :2], -target.span / 2, target.span / 2)
+    half = np.array(target.sides) / 2
+    inside = np.clip(centred[:, :2], -half, half)
     return centred + np.array([0.0, 0.0, target.evaluate_height(*inside.T).mean()])
 
 
@@ -190,7 +191,7 @@ def build_net_terms(
 
     attracted (N,) rows, plan (V, 2) m that tells sides of the border, rest (H,) rad.
     """
-    steep = target.height >= STEEP * target.span
+    steep = target.height >= STEEP * min(target.sides)
     hinges, crease, ell = net.hinges.vertices, net.creases, net.reference
     return [
         Stretch(net.facets.edges, net.lengths, weights.stretch),

@@ -48,10 +48,11 @@ def measure_panel_quality(
     mesh: PanelMesh,
     net: FacetNet,
     distances: np.ndarray | None = None,
-    span: float = 0.0,
+    sides: tuple[float, float] = (0.0, 0.0),
 ) -> QualityMeasures:
-    """Measure the folded state of a mesh; signed distances (N,) m to a target, None for none."""
-    vertices = mesh.vertices
+    """Measure the folded state of a mesh; signed distances (N,) m to a target over a plan of two
+    `sides` m, None for none."""
+    vertices, span = mesh.vertices, min(sides)
     hinges = find_hinges(net.facets, net.edges)
     letters = net.letters[hinges.edges]
     folds = measure_hinges(vertices, hinges.vertices)
@@ -71,7 +72,7 @@ def measure_panel_quality(
         neutral_fold_max_deg=float(inner.max(initial=0.0)),
         flipped_folds=count_turned(folds, letters),
         self_intersections=len(find_intersections(vertices, net.facets)),
-        plan_coverage=measure_coverage(vertices, net.facets, span) if off else None,
+        plan_coverage=measure_coverage(vertices, net.facets, sides) if off else None,
         panels_not_convex=count_not_convex(vertices, mesh.panels),
         edge_ratio_max=float(measure_side_ratio(vertices, mesh.panels).max()),
     )

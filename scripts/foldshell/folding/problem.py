@@ -12,9 +12,11 @@ STEEP = 0.8  # height / span from which folds and plan edges are held more firml
 
 
 def attracted_vertices(sheet: Sheet, attract: str) -> np.ndarray:
-    """Row numbers (N,) of the lowest or the highest vertices: even or odd zig-zags."""
+    """Row numbers (N,) of the lowest or the highest vertices, even or odd zig-zags, or of all."""
+    if attract == "all":
+        return np.arange(len(sheet.grid.zigzag_index))
     if attract not in ("lowest", "highest"):
-        raise ValueError(f"attract {attract!r}: must be lowest or highest")
+        raise ValueError(f"attract {attract!r}: must be lowest, highest or all")
     return np.flatnonzero(sheet.grid.zigzag_index % 2 == (attract == "highest"))
 
 

@@ -13,9 +13,9 @@ from foldshell.folding.free_fold import fold_freely
 from foldshell.folding.levenberg import minimise_terms
 from foldshell.folding.net import FoldNet
 from foldshell.folding.panel_problem import (
-    align_plan,
     CURLED,
     FREE_BORDER,
+    align_plan,
     build_net_terms,
     choose_attracted,
     lay_planar,
@@ -78,9 +78,7 @@ def fold_net_softly(net: FoldNet, start: Start, target: Target, settings: Fold) 
     """Minimise the weighted squares of stretch, hinges, attraction, plan edges."""
     if start.curls:
         return _fold_from_flat(net, start, target, settings)
-    terms = build_net_terms(
-        net, target, start.attracted, start.plan, start.rest, settings.weights
-    )
+    terms = build_net_terms(net, target, start.attracted, start.plan, start.rest, settings.weights)
     minimum = minimise_softly(terms, start.vertices, settings, target.span)
     settled = minimum.converged or minimum.fall <= SETTLED
     return Shape(minimum.vertices, net.flat, minimum.iterations, settled, minimum.reason,
@@ -96,9 +94,7 @@ def _fold_from_flat(net: FoldNet, start: Start, target: Target, settings: Fold) 
             weights = settings.weights.changed(
                 attraction=attraction * settings.weights.attraction / STEPS[-1][1]
             )
-            terms = build_net_terms(
-                net, target, start.attracted, start.plan, share * rest, weights
-            )
+            terms = build_net_terms(net, target, start.attracted, start.plan, share * rest, weights)
             last = share == 1.0
             minimum = minimise_terms(
                 terms, vertices, max_iterations=settings.max_iterations,
@@ -112,5 +108,3 @@ def _fold_from_flat(net: FoldNet, start: Start, target: Target, settings: Fold) 
             rest = max(factor, 0.1) * rest
     settled = minimum.converged or minimum.fall <= SETTLED
     return Shape(vertices, net.flat, iterations, settled, minimum.reason, {"cost": minimum.cost})
-
-

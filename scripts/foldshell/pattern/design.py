@@ -8,7 +8,7 @@ from foldshell.pattern.arc_miura import make_arc_sheet, size_arc_miura
 from foldshell.pattern.grid import build_grid, remove_creases
 from foldshell.pattern.miura import grade_widths, poissons_ratio, size_miura
 from foldshell.pattern.sheet import FRAMES, Sheet, make_miura_sheet
-from foldshell.settings.design import PATTERNS
+from foldshell.settings.design import GRID_PATTERNS
 
 SECTOR_ANGLES_DEG = (46.0, 88.0)  # near 45 the rest state is flat, near 90 zig-zags vanish
 
@@ -44,7 +44,7 @@ def design_sheet(
         )
         return make_arc_sheet(arc, fold, frames)
     if pattern not in ("miura", "flat"):
-        raise ValueError(f"pattern {pattern!r}: must be one of {', '.join(PATTERNS)}")
+        raise ValueError(f"pattern {pattern!r}: must be one of {', '.join(GRID_PATTERNS)}")
     sector = math.radians(sector_angle_deg)
     rest = math.radians(rest_fold_angle_deg)
     poisson = poissons_ratio(sector, rest) if rest else -1.0

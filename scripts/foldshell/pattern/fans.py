@@ -106,7 +106,7 @@ def find_families(panels: Ragged) -> tuple[np.ndarray, np.ndarray] | None:
     """Return the family (S,) 0 or 1 of each side of panels, and the sides (S, 2), where all panels
     are quadrilaterals whose opposite sides fall into two families; None for others.
 
-    Opposite sides of a panel are of one family, neighbouring ones of both.
+    Opposite sides of a panel are of one family, neighbouring ones of both. All are numbers.
     """
     if not (np.diff(panels.starts) == 4).all():
         return None

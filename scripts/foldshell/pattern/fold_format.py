@@ -16,7 +16,7 @@ from foldshell.files.whole import Json, write_json
 from foldshell.pattern.angles import measure_folds
 from foldshell.pattern.grid import Grid, build_grid, remove_creases
 from foldshell.pattern.sheet import Frame, Sheet
-from foldshell.settings.design import PATTERNS
+from foldshell.settings.design import GRID_PATTERNS
 
 REST_TITLE, UNROLLED_TITLE = "rest", "rest, unrolled"
 
@@ -108,9 +108,11 @@ def _read_frames(path: str | Path, data: Json, grid: Grid) -> Iterator[Frame]:
 
 
 def _read_kind(path: str | Path, data: Json) -> str:
-    kind = data.get("foldshell:kind", PATTERNS[0])
-    if kind not in PATTERNS:
-        raise InputError(f"{path}: foldshell:kind: {_show(kind)}: one of {', '.join(PATTERNS)}")
+    kind = data.get("foldshell:kind", GRID_PATTERNS[0])
+    if kind not in GRID_PATTERNS:
+        raise InputError(
+            f"{path}: foldshell:kind: {_show(kind)}: one of {', '.join(GRID_PATTERNS)}"
+        )
     return kind
 
 

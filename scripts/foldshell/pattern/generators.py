@@ -4,6 +4,7 @@ Each is flat, in m, sized so that it covers a target's central sections once its
 what the pattern takes up; mountains and valleys as seen from above, angles in rad.
 """
 
+import itertools
 import math
 from collections.abc import Callable
 
@@ -31,7 +32,7 @@ def build_flat(
     """
     used, corners = np.unique(np.concatenate(panels), return_inverse=True)
     sizes = np.cumsum([0, *(len(panel) for panel in panels)])
-    ragged = make_ragged([corners[a:b] for a, b in zip(sizes[:-1], sizes[1:], strict=True)])
+    ragged = make_ragged([corners[a:b] for a, b in itertools.pairwise(sizes)])
     edges, _, number = find_sides(ragged)
     folds = [("B", math.nan) if count == 1 else rule(*used[edge].tolist())
              for edge, count in zip(edges, number.tolist(), strict=True)]  # fmt: skip
@@ -43,8 +44,8 @@ def build_flat(
         sets["free_border"] = np.unique(edges[number == 1])
     labels = {}
     if rows:
-        labels = {name: np.array(values, dtype=np.int64)
-                  for name, values in zip(("row", "place"), zip(*rows, strict=True), strict=True)}  # fmt: skip
+        row, place = np.array(rows, dtype=np.int64).T
+        labels = {"row": row, "place": place}
     return PanelMesh(
         ragged, edges, np.array([letter for letter, _ in folds]),
         np.array([angle for _, angle in folds]), flat=flat, labels=labels, sets=sets,
@@ -76,9 +77,8 @@ def make_accordion(
 
 def _grid_panels(rows: int, columns: int) -> tuple[list[list[int]], list[tuple[int, int]]]:
     places = [(i, j) for i in range(rows - 1) for j in range(columns - 1)]
-    panels = [[i * columns + j, i * columns + j + 1, (i + 1) * columns + j + 1, (i + 1) * columns + j]
-              for i, j in places]  # fmt: skip
-    return panels, places
+    first = [i * columns + j for i, j in places]
+    return [[k, k + 1, k + columns + 1, k + columns] for k in first], places
 
 
 def make_fan(
@@ -168,8 +168,8 @@ def make_waterbomb(
 ) -> PanelMesh:
     """Waterbomb tessellation: `rows` rows of `columns` bases, each row set off by half of one.
 
-    Diagonals of a base are valleys, all other lines mountains; corners of the bases are drawn to the
-    target, their middles are free. `take_up` is the share of its size that is left once folded.
+    Diagonals of a base are valleys, all other lines mountains; corners of the bases are drawn to
+    the target, their middles are free. `take_up` is the share of its size that is left once folded.
     """
     width = lengths[0] / take_up / (2 * columns)
     height = lengths[1] / take_up / (2 * rows)
@@ -213,8 +213,9 @@ def make_resch(
 
     On a lattice of triangles those that point up are panels or, every third, tucks: three short
     creases run from the middle of a tuck to its corners and three long ones to the tips across its
-    sides, and all that points down is parted by these. Panels lie on the target; middles hang below.
-    `rows` and `columns` of lattice triangles; `take_up` is the share of its size left once folded.
+    sides, and all that points down is parted by these. Panels lie on the target, middles hang
+    below. `rows` and `columns` of lattice triangles; `take_up` is the share of its size that is
+    left once it is folded.
     """
     closed = 1 / math.sqrt(3)
     share = min(max((1 - take_up) / (1 - closed), 0.05), 0.95)
@@ -238,7 +239,7 @@ def make_resch(
     angles = {"wall": -math.pi / 2, "long": math.pi, "short": -math.pi / 3}
 
     def rule(one: int, two: int) -> tuple[str, float]:
-        """Return letter and angle of a side: wall of a tuck, long or short crease from its middle."""
+        """Return letter and angle of a side: wall of a tuck, or crease from its middle."""
         low, high = sorted((one, two))
         kind = "wall" if high < count else "short" if (low, high) in corner_spokes else "long"
         return ("V" if kind == "long" else "M"), share * angles[kind]

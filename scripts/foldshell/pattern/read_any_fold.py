@@ -52,7 +52,7 @@ def read_any_fold(path: str | Path, file_unit: str | None = None) -> PanelMesh:
     return PanelMesh(
         panels, edges, letters, angles,
         *(None if s is None else unit * s for s in (flat, rest, folded[-1][1] if folded else None)),
-        notes=tuple(notes),
+        sets=_read_sets(path, data, len(points)), notes=tuple(notes),
     )  # fmt: skip
 
 
@@ -183,6 +183,20 @@ def _read_edges(
         elif number == 1 and letters[place] != "B":
             letters[place] = "B"
     return np.array(edges), np.array(letters), np.array(angles)
+
+
+def _read_sets(path: str | Path, data: Json, count: int) -> dict[str, np.ndarray]:
+    """Sets of vertices by name, of the key foldshell:sets of the top frame."""
+    given = data.get("foldshell:sets", {})
+    if not isinstance(given, dict):
+        raise InputError(f"{path}: foldshell:sets: lists of vertices by name are needed")
+    for name, rows in given.items():
+        known = isinstance(rows, list) and all(type(v) is int and 0 <= v < count for v in rows)
+        if not known or not rows:
+            raise InputError(
+                f"{path}: foldshell:sets: {name}: a list of vertices of 0 to {count - 1} is needed"
+            )
+    return {name: np.array(rows, dtype=np.int64) for name, rows in given.items()}
 
 
 def _read_letters(path: str | Path, given: object, count: int) -> list[str]:

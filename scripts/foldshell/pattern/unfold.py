@@ -5,9 +5,11 @@ then lie is the closure, 0 for a developable sheet (and, folding, for a rigidly 
 """
 
 from dataclasses import dataclass, replace
+from pathlib import Path
 
 import numpy as np
 
+from foldshell.files.errors import InputError
 from foldshell.pattern.angles import measure_folds
 from foldshell.pattern.grid import Grid, find_outline
 from foldshell.pattern.sheet import Frame, Sheet
@@ -181,7 +183,7 @@ def fit_turn(points: np.ndarray, onto: np.ndarray) -> np.ndarray:
     """Rotation R (3, 3) of least |points R - onto|, both (V, 3) about their means.
 
     W. Kabsch, Acta Crystallographica A32 (1976) 922: with U S V^T of the covariance, R = U V^T,
-    the last axis turned where that would mirror.
+    the last axis turned where that would mirror. In m.
     """
     left, _, right = np.linalg.svd(points.T @ onto)
     return (left * [1.0, 1.0, np.sign(np.linalg.det(left @ right))]) @ right
@@ -265,6 +267,14 @@ def describe_true_sheet(
     return replace(
         sheet, flat=flat, rest=folded, path=tuple(frames), settings=settings, unrolled=None
     )
+
+
+def check_same_vertices(
+    sheet: Sheet, folded: FoldedArrays, folded_path: str | Path, pattern_path: str | Path
+) -> None:
+    """Raise `InputError` where a folded sheet has other vertices than its pattern."""
+    if (count := len(folded.vertices)) != (due := len(sheet.flat)):
+        raise InputError(f"{folded_path}: vertices: {count}: must be {due} as in {pattern_path}")
 
 
 def name_flat_state(grid: Grid, folded: FoldedArrays, fold_mode: str) -> str:

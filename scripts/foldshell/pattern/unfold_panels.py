@@ -54,8 +54,9 @@ def unfold_net(vertices: np.ndarray, panels: Ragged, like: np.ndarray) -> Assemb
     vertices (V, 3) m, like (V, 3) m another flat state of the same panels.
     """
     local = lay_panels(vertices, panels)
-    place = [dict(zip(row.tolist(), values, strict=True))
-             for row, values in zip(panels, np.split(local, panels.starts[1:-1]), strict=True)]  # fmt: skip
+    values = np.split(local, panels.starts[1:-1])
+    rows = zip(panels, values, strict=True)
+    place = [dict(zip(row.tolist(), there, strict=True)) for row, there in rows]
     placed = np.empty(len(panels.corners), dtype=complex)
     first = find_middle_panel(vertices, panels)
     laid = {first: place[first]}
@@ -97,7 +98,8 @@ def gather_copies(copies: np.ndarray, panels: Ragged, count: int) -> Assembly:
     Vertices of no panel stay at 0.
     """
     number = np.maximum(np.bincount(panels.corners, minlength=count), 1)
-    mean = np.stack([np.bincount(panels.corners, copies[:, k], count) / number for k in range(3)], 1)
+    total = [np.bincount(panels.corners, copies[:, k], count) for k in range(3)]
+    mean = np.stack(total, axis=1) / number[:, None]
     gap = np.linalg.norm(copies - mean[panels.corners], axis=1).max()
     return Assembly(mean, 2 * float(gap))
 

@@ -44,6 +44,8 @@ class DesignRow:
     span_y_m: float | None = _column("span_y_m", form="general", default=None)
     outline: str | None = _column("outline", default=None)
     openings: str | None = _column("openings", default=None)
+    opening_angle_deg: float | None = _column("opening_angle_deg", form="general", default=None)
+    take_up: float | None = _column("take_up", form="general", default=None)
     folded: str | None = _column("folded", default=None)
     file_unit: str | None = _column("file_unit", default=None)
     loads: str | None = _column("loads", default=None)

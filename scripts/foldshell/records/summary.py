@@ -87,6 +87,8 @@ class SummaryRow:
     span_y_m: float | None = _design("span_y_m")
     outline: str | None = _design("outline")
     openings: str | None = _design("openings")
+    opening_angle_deg: float | None = _design("opening_angle_deg")
+    take_up: float | None = _design("take_up")
     folded: str | None = _design("folded")
     file_unit: str | None = _design("file_unit")
     utilization_strip_max: float | None = entry(

@@ -18,15 +18,27 @@ SURFACES = ("paraboloid", "hypar", "hypar_twist", "arch", "arch_strip")
 
 GRID_PATTERNS = ("miura", "arc_miura", "smooth", "flat")
 """Patterns of zig-zags and strips."""
-PATTERNS = GRID_PATTERNS
+PATTERNS = (*GRID_PATTERNS, "yoshimura", "waterbomb", "resch", "accordion", "fan")
 """Crease patterns that are known by name; others are files."""
 NONE = "none"
 """Stands for a file that is not given, and for the surface of a sheet that is folded already."""
 FOLDED = "folded"
 """Pattern of a design whose folded sheet is a file."""
 MIURA_COLUMNS = ("sector_angle_deg", "rest_fold_angle_deg", "strip_grading")
-"""Columns of the Miura pattern alone."""
-SILENT_AT_ZERO = (*MIURA_COLUMNS, "span_x_m", "span_y_m")
+"""Columns of the Miura pattern."""
+OTHER_PARAMETERS = ("opening_angle_deg", "take_up")
+"""Columns of patterns that have no zig-zags and strips."""
+PARAMETERS = {
+    "miura": MIURA_COLUMNS,
+    "flat": MIURA_COLUMNS,
+    "accordion": ("rest_fold_angle_deg",),
+    "fan": ("opening_angle_deg",),
+    "yoshimura": ("take_up",),
+    "waterbomb": ("take_up",),
+    "resch": ("take_up",),
+}
+"""Columns that are parameters, by pattern."""
+SILENT_AT_ZERO = (*MIURA_COLUMNS, *OTHER_PARAMETERS, "span_x_m", "span_y_m")
 """Columns that say nothing where they are 0, as if they were not there."""
 FOLD_MODES = ("elastic", "isometric", "exact", "rigid")
 
@@ -95,7 +107,8 @@ class DesignColumns(Group):
     rest_fold_angle_deg: float = setting(
         0, unit="degrees", ranges=((5, 85),),
         meaning="Angle of a panel to the plane in the rest state of a Miura sheet, 0 would be flat "
-        "and 90 folded flat; 0 takes the one at which its Poisson's ratio is -1.",
+        "and 90 folded flat; 0 takes the one at which its Poisson's ratio is -1. Of an accordion "
+        "the same, 0 takes 40.",
     )  # fmt: skip
     strip_grading: float = setting(
         0, minimum=-1.5, maximum=1.5,
@@ -109,6 +122,15 @@ class DesignColumns(Group):
     span_y: float = setting(
         0, unit="m", ranges=((0.1, 500),),
         meaning="Side of a rectangular plan along y, across the zig-zags; 0 takes span_m.",
+    )  # fmt: skip
+    opening_angle_deg: float = setting(
+        0, unit="degrees", ranges=((30, 300),),
+        meaning="Angle that the flat sheet of pattern fan spans about its middle; 0 takes 120.",
+    )  # fmt: skip
+    take_up: float = setting(
+        0, ranges=((0.4, 0.98),),
+        meaning="Share of its size that is left of a yoshimura, waterbomb or resch sheet once it "
+        "is folded; 0 takes 0.93, 0.85, 0.8.",
     )  # fmt: skip
     folded: str = setting(
         NONE,

@@ -9,7 +9,15 @@ from pathlib import Path
 from foldshell.files.errors import InputError
 from foldshell.settings.check import Reader, parse_text
 from foldshell.settings.consistency import check_thickness
-from foldshell.settings.design import COLUMNS, MIURA_COLUMNS, NONE, Design, DesignColumns
+from foldshell.settings.design import (
+    COLUMNS,
+    MIURA_COLUMNS,
+    NONE,
+    OTHER_PARAMETERS,
+    PARAMETERS,
+    Design,
+    DesignColumns,
+)
 from foldshell.settings.design_files import (
     check_outline,
     check_pattern,
@@ -154,11 +162,12 @@ def _check_edge_beam(design: Design, where: str) -> None:
 
 
 def _check_miura(design: Design, settings: Settings, where: str) -> None:
-    for column in MIURA_COLUMNS:
-        if getattr(design, column) and design.pattern not in ("miura", "flat"):
+    for column in (*MIURA_COLUMNS, *OTHER_PARAMETERS):
+        if getattr(design, column) and column not in PARAMETERS.get(design.pattern, ()):
+            having = [name for name, columns in PARAMETERS.items() if column in columns]
             raise InputError(
                 f"{where}: {column}: {getattr(design, column):g}: pattern {design.pattern} has no "
-                "such parameter: leave it empty, or take pattern miura"
+                f"such parameter: leave it empty, or take pattern {' or '.join(having)}"
             )
     angle = design.sector_angle_deg or math.degrees(settings.pattern.sector_angle)
     if design.sector_angle_deg and angle <= 45 and not design.rest_fold_angle_deg:

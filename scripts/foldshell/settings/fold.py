@@ -83,8 +83,9 @@ class Fold(Group):
         meaning="Solver; averaged projections are the paper's way, kept for comparison.",
     )  # fmt: skip
     attract: str = setting(
-        "lowest", choices=("lowest", "highest"),
-        meaning="Which vertices of the folded sheet are drawn to the target surface.",
+        "lowest", choices=("lowest", "highest", "all"),
+        meaning="Which vertices of the folded sheet are drawn to the target surface; a set "
+        "`attract` in the file of a pattern stands above it.",
     )  # fmt: skip
     weights: FoldWeights
     exact: ExactWeights

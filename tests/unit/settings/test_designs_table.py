@@ -210,7 +210,7 @@ def cell(column: str, value: str) -> str:
         (cell("design", "$(id)"), "a name of lower-case letters"),
         (cell("design", "figures"), "reserved"),
         (cell("design", "con"), "reserved"),
-        (cell("pattern", "yoshimura"), "one of miura, arc_miura, smooth, flat"),
+        (cell("pattern", "kirigami"), "one of miura, arc_miura, smooth, flat, yoshimura"),
         (cell("surface", "parabolid"), "the nearest is paraboloid"),
         (cell("surface", "roof.txt"), "or a mesh file"),
         (cell("span_m", "28e"), "the value is text"),

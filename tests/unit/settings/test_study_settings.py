@@ -15,7 +15,7 @@ from foldshell.folding.fold import SOLVERS
 from foldshell.folding.quadric import make_quadric
 from foldshell.pattern.design import design_sheet
 from foldshell.settings.check import Reader, iterate_settings
-from foldshell.settings.design import FOLD_MODES, PATTERNS, SUPPORTS, SURFACES, Design
+from foldshell.settings.design import FOLD_MODES, GRID_PATTERNS, SUPPORTS, SURFACES, Design
 from foldshell.settings.documentation import (
     SCHEMAS,
     generate_config,
@@ -97,7 +97,7 @@ def test_what_settings_name_is_what_the_library_knows():
     assert tuple(SOLVERS) == FOLD_MODES
     assert tuple(SUPPORT_SETS) == SUPPORTS
     assert tuple(RULES) == list_settings(Sizing)["rule"].choices
-    for pattern in PATTERNS:
+    for pattern in GRID_PATTERNS:
         assert len(design_sheet(pattern, (5.0, 5.0), 3, 4, 60.0, 2, 0.3).flat) == 12
     for surface in SURFACES:
         assert make_quadric(surface, 5.0, 2.0).name == surface
