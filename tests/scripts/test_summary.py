@@ -124,6 +124,7 @@ def test_every_column_is_that_of_the_file_it_comes_from(tmp_path):
     design = make_design("a") | {"edge_beam_depth_m": 0.41, "edge_beam_thickness_m": 0.23}
     design |= {"folded": "roof.obj", "file_unit": "mm", "strip_grading": 0.3}
     design |= {"span_x_m": 31.0, "span_y_m": 29.0, "loads": "mine"}
+    design |= {"outline": "a.csv", "openings": "b.csv"}
     design |= {"opening_angle_deg": 150.0, "take_up": 0.7}
     design |= {"sector_angle_deg": 55.0, "rest_fold_angle_deg": 31.0}
     paths = tmp_path / "summary.csv", tmp_path / "summary.xlsx"
