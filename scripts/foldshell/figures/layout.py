@@ -141,7 +141,10 @@ def _write_note(pen: ImageDraw.ImageDraw, note: Note, top: int, width: int, unit
 
 
 def save_png(path: str | Path, picture: Image.Image) -> None:
-    """Write a PNG whose bytes depend on the picture alone."""
+    """Write a PNG whose bytes depend on the picture alone.
+
+    In all its colours: a palette that is quick to find puts beige into a bar of pale yellows.
+    """
     with atomic_path(path) as temporary:
         picture.save(temporary, format="PNG", compress_level=2)
 
