@@ -14,11 +14,16 @@ class Sizing(Group):
     thickness."""
 
     rule: str = setting(
-        "dead_band", choices=("dead_band", "filtered_dead_band", "fully_stressed", "optimality"),
+        "dead_band",
+        choices=(
+            "dead_band", "filtered_dead_band", "fully_stressed", "optimality", "stress_ratio"
+        ),
         former={"literal": "fully_stressed"}, stages=_LOOP,
         meaning="Grow above utilization_max and shrink below utilization_min; "
         "(filtered_dead_band) the same as far as predicted displacement and buckling factor keep "
-        "their limits; (fully_stressed) shrink whenever below utilization_max; or (optimality) "
+        "their limits; (stress_ratio) the same with steps by the ratio of utilization to its lower "
+        "limit while a panel is far below it; (fully_stressed) shrink whenever below "
+        "utilization_max; or (optimality) "
         "least volume that keeps utilization, displacement and buckling factor, by gradients.",
     )  # fmt: skip
     measure: str = setting(
@@ -61,6 +66,10 @@ class Sizing(Group):
     analyse_only: bool = setting(
         False, stages=_VERDICT,
         meaning="Analyse the first workbook as it is, judge it by the limits, and size nothing.",
+    )  # fmt: skip
+    ratio_limit: float = setting(
+        0.45, above=0, maximum=0.9, stages=_STEP,
+        meaning="Largest relative change of a thickness in one iteration by the rule stress_ratio.",
     )  # fmt: skip
     utilization_min: float = setting(
         0.6, minimum=0, maximum=10, stages=_LOOP,

@@ -6,6 +6,8 @@ one before, and is repeated with more effort where a comparison is close, where 
 and where its state is delivered. All of it follows from what the files of a loop hold.
 """
 
+from dataclasses import replace
+
 import numpy as np
 
 from foldshell.records.analysis import AnalysisRecord
@@ -15,6 +17,9 @@ from foldshell.shell.effort import COLD, START, USUAL, WARM, Effort
 
 COMPARING = ("dead_band", "fully_stressed")
 """Rules that take nothing but comparisons from an analysis; others get all digits of it."""
+
+BY_UTILIZATION = ("stress_ratio",)
+"""Rules that take utilization with all its digits and nothing but comparisons of factors."""
 
 HIDDEN_FACTOR = 2.0
 """Least buckling factor, over its limit where that is above 1, below which random vectors come in:
@@ -43,8 +48,14 @@ def choose_effort(
 
     `previous` and `arrays` are of the analysis before, `edited` tells of panels changed by hand.
     """
-    if sizing.rule not in COMPARING:
+    if sizing.rule not in COMPARING + BY_UTILIZATION:
         return USUAL
+    effort = _choose_search(sizing, thickness, previous, arrays, edited)
+    return effort if sizing.rule in COMPARING else replace(effort, second_order_tolerance=0.0)
+
+
+def _choose_search(sizing, thickness, previous, arrays, edited) -> Effort:
+    """Return how buckling is searched for, with the rest of the effort inside a loop."""
     if previous is None:
         return COLD
     if previous.state != "ok" or arrays.buckling_modes is None or edited:

@@ -16,7 +16,7 @@ from foldshell.settings.loads import Combinations
 from foldshell.settings.material import Material
 from foldshell.settings.sizing import Sizing
 from foldshell.shell.analysis import AnalysisResult, ShellAnalysis, ShellModel
-from foldshell.shell.effort import COLD, FULL, START, USUAL, WARM, Effort
+from foldshell.shell.effort import FULL, START, USUAL, Effort
 from foldshell.shell.placed_loads import PlacedLoads
 from foldshell.sizing.accuracy import (
     bound_hidden_factor,
@@ -122,13 +122,15 @@ def _analyse_in_loop(case: AnalysisCase, task: IterationTask) -> Analysed:
     modes, edited = task.modes, bool(task.edited_panels)
     effort = choose_effort(sizing, task.thickness, task.previous, task.previous_arrays, edited)
     result = analysis.run(effort, modes)
-    if effort in (COLD, WARM) and is_doubtful(sizing, result.least_factor):
-        effort = START
+    careful = replace(START, second_order_tolerance=effort.second_order_tolerance)
+    if effort not in (careful, USUAL) and is_doubtful(sizing, result.least_factor):
+        effort = careful
         result = analysis.run(effort, result.buckling.modes)
     done = evaluate(case, task, result, effort)
     if effort is USUAL and _goes_on(done):
         return done
-    if done.utilization is not None and _is_close(done) and _goes_on(done):
+    rough = effort.second_order_tolerance > 0 and done.utilization is not None
+    if rough and _is_close(done) and _goes_on(done):
         effort = replace(effort, second_order_tolerance=0.0)
         done = evaluate(case, task, analysis.bend(result.buckling, effort), effort)
     if not _goes_on(done) or is_factor_close(sizing, result.least_factor):

@@ -18,7 +18,8 @@ class SizingState:
     `step` is the relative step of each panel, `direction` its last change (-1, 0, 1),
     `sign_changes` how often that changed sign. `may_thin` tells whether thinning is allowed at all.
     `constraints` serve the rules that work on them, the largest relative step `step_max` the rule
-    `optimality` alone. `least` and `largest` are the bounds of panels, None for those of the
+    `optimality` alone; the least buckling factor and the displacement over its limit limit long
+    steps of `stress_ratio`. `least` and `largest` are the bounds of panels, None for those of the
     settings.
     """
 
@@ -30,6 +31,8 @@ class SizingState:
     may_thin: bool = True
     constraints: Constraints | None = None
     step_max: float = np.inf
+    least_factor: float = np.inf
+    displacement_share: float = 0.0
     least: np.ndarray | None = None
     largest: np.ndarray | None = None
 
@@ -81,11 +84,13 @@ def _step(state: SizingState, wish: np.ndarray, sizing: Sizing) -> SizingState:
     return replace(following, thickness=thickness)
 
 
-def turn(state: SizingState, wish: np.ndarray) -> SizingState:
+def turn(
+    state: SizingState, wish: np.ndarray, sign_changes_max: int = SIGN_CHANGES_MAX
+) -> SizingState:
     """Note the way each panel goes, -1, 0 or 1 (P,), no unit; halve its step after some changes."""
     turned = wish * state.direction < 0
     sign_changes = state.sign_changes + turned
-    halve = turned & (sign_changes % SIGN_CHANGES_MAX == 0)
+    halve = turned & (sign_changes % sign_changes_max == 0)
     step = np.where(halve, state.step / 2, state.step)
     direction = np.where(wish == 0, state.direction, wish)
     return replace(state, step=step, direction=direction, sign_changes=sign_changes)

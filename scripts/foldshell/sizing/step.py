@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from foldshell.records.analysis import AnalysisRecord
+from foldshell.records.analysis import AnalysisRecord, Criterion
 from foldshell.records.analysis_arrays import AnalysisArrays, StepMemory
 from foldshell.settings.sizing import Sizing
 from foldshell.sizing.buildable import list_buildable, round_up, step_to_buildable
@@ -28,6 +28,7 @@ from foldshell.sizing.rules import (
     start_state,
     thicken_all,
 )
+from foldshell.sizing.stress_ratio import stress_ratio
 
 Rule = Callable[[SizingState, Sizing], SizingState]
 RULES: dict[str, Rule] = {
@@ -35,6 +36,7 @@ RULES: dict[str, Rule] = {
     "filtered_dead_band": filtered_dead_band,
     "fully_stressed": fully_stressed,
     "optimality": optimality,
+    "stress_ratio": stress_ratio,
 }
 
 EDGE_BEAM_NOTE = "thicker for its edge beam"
@@ -152,6 +154,8 @@ def propose_thickness(
         may_thin=bool(stiff and safe),
         constraints=constraints,
         step_max=sizing.move_limit,
+        least_factor=np.inf if factor is None else factor,
+        displacement_share=_share(analysis.criteria.displacement_vertical_m),
     )
     if not stiff and not (utilization > sizing.utilization_max).any():
         following = _advance(state, sizing, _thicken, limits)
@@ -161,6 +165,12 @@ def propose_thickness(
         note = "" if state.may_thin else _explain(stiff)
     notes = _notes(following, sizing, note, limits)
     return NextStep(following.thickness, notes, _memory(following, thickness, 0))
+
+
+def _share(displacement: Criterion) -> float:
+    """Return the displacement over its limit."""
+    known = displacement.value is not None and np.isfinite(displacement.value)
+    return displacement.value / displacement.limit if known else 1.0
 
 
 def _thicken(state: SizingState, sizing: Sizing) -> SizingState:

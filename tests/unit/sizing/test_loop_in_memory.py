@@ -50,6 +50,7 @@ def _run_files(folder, mesh, **sizing):
         {"least_thickness": 0.1},
         {"rule": "optimality", "least_thickness": 0.1},
         {"thickness_step": 0.01, "symmetry": "both", "least_thickness": 0.03},
+        {"rule": "stress_ratio", "least_thickness": 0.02},
         {"analyse_only": True},
         {"rule": "filtered_dead_band", "measure": "strip", "buckling_factor_min": 60.0},
     ],
