@@ -216,16 +216,22 @@ def _finite(value: float) -> float | None:
 
 
 def pack_geometry(folded: FoldedCandidate) -> str:
-    """Return vertices and quads of a candidate as text: counts, box, 16-bit coordinates, quads.
+    """Return vertices and panels of a candidate as text, for thumbnails.
 
-    Little endian: two uint32 (V, P), six float32 (lowest corner, size), V x 3 and P x 4 uint16.
+    Little endian: three uint32 (vertices, panels, strips), six float32 (lowest corner, size; m),
+    uint16 V x 3 in shares of the box; then P x 4 of the panels, where strips is 0. Else they are
+    those of a grid whose rows have so many vertices.
     """
-    vertices, quads = folded.result.shape.vertices, folded.sheet.grid.quads
+    vertices, grid = folded.result.shape.vertices, folded.sheet.grid
     low, size = vertices.min(axis=0), np.maximum(np.ptp(vertices, axis=0), 1e-9)
     packed = np.round((vertices - low) / size * STEPS).astype("<u2")
-    head = np.array([len(vertices), len(quads)], "<u4").tobytes()
+    number = np.arange(len(vertices)).reshape(-1, grid.strip_count)
+    corners = number[:-1, :-1], number[:-1, 1:], number[1:, 1:], number[1:, :-1]
+    plain = np.array_equal(grid.quads, np.stack([one.ravel() for one in corners], axis=1))
+    strips, rest = (grid.strip_count, b"") if plain else (0, grid.quads.astype("<u2").tobytes())
+    head = np.array([len(vertices), len(grid.quads), strips], "<u4").tobytes()
     box = np.concatenate([low, size]).astype("<f4").tobytes()
-    return base64.b64encode(head + box + packed.tobytes() + quads.astype("<u2").tobytes()).decode()
+    return base64.b64encode(head + box + packed.tobytes() + rest).decode()
 
 
 def make_design(columns: Plain, name: str = "candidate") -> Design:

@@ -1,16 +1,20 @@
 // Part of the page of an exploration: folded sheets drawn on canvases, from packed coordinates.
 "use strict";
 
-function unpack(text) { // V, P, box, 16-bit coordinates, corners of panels
+function unpack(text) { // counts, box, 16-bit coordinates, corners of panels but for a grid's
   const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0)), view = new DataView(bytes.buffer);
-  const [vertices, panels] = [view.getUint32(0, true), view.getUint32(4, true)];
-  const box = Array.from({ length: 6 }, (_, k) => view.getFloat32(8 + 4 * k, true));
+  const [vertices, panels, strips] = [0, 4, 8].map((k) => view.getUint32(k, true));
+  const box = Array.from({ length: 6 }, (_, k) => view.getFloat32(12 + 4 * k, true));
   const xyz = new Float32Array(3 * vertices), quads = new Uint16Array(4 * panels);
   const centre = [0, 1, 2].map((k) => box[k] + box[3 + k] / 2);
   for (let k = 0; k < xyz.length; k++)
-    xyz[k] = box[k % 3] + (box[3 + (k % 3)] * view.getUint16(32 + 2 * k, true)) / 65535 - centre[k % 3];
-  const start = 32 + 6 * vertices;
-  for (let k = 0; k < quads.length; k++) quads[k] = view.getUint16(start + 2 * k, true);
+    xyz[k] = box[k % 3] + (box[3 + (k % 3)] * view.getUint16(36 + 2 * k, true)) / 65535 - centre[k % 3];
+  const start = 36 + 6 * vertices;
+  for (let k = 0; k < panels; k++) {
+    const first = strips ? k + Math.floor(k / (strips - 1)) : 0;
+    const corners = [first, first + 1, first + strips + 1, first + strips];
+    for (let m = 0; m < 4; m++) quads[4 * k + m] = strips ? corners[m] : view.getUint16(start + 8 * k + 2 * m, true);
+  }
   return { xyz, quads, size: Math.hypot(box[3], box[4]) };
 }
 

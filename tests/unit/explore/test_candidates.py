@@ -46,9 +46,10 @@ def test_a_candidate_is_sized_with_all_that_is_said_of_it():
     assert record.cheap_m3 == screen({"design": "x", **make_design_row()}, STAGE,
                                      exploration()).cheap_m3  # fmt: skip
     raw = base64.b64decode(record.geometry)
-    count, panels = struct.unpack_from("<II", raw)
-    low, size = np.split(np.array(struct.unpack_from("<6f", raw, 8)), 2)
-    packed = np.frombuffer(raw, "<u2", 3 * count, 32).reshape(-1, 3)
+    count, panels, strips = struct.unpack_from("<III", raw)
+    low, size = np.split(np.array(struct.unpack_from("<6f", raw, 12)), 2)
+    packed = np.frombuffer(raw, "<u2", 3 * count, 36).reshape(-1, 3)
+    assert strips == 8 and len(raw) == 36 + 6 * count
     assert (count, panels) == (len(vertices), 42)
     np.testing.assert_allclose(low + packed / 65535 * size, vertices, atol=2e-4)
 
