@@ -1,7 +1,6 @@
 # The search of the pattern; no part of `all`. A plan that does not change: how many designs a round
 # has is a setting, so every name is known before any job starts.
 
-from foldshell.files.errors import InputError
 from foldshell.settings.design import Design
 from foldshell.settings.exploration import read_exploration
 from foldshell.settings.study import NO_EXPLORATION

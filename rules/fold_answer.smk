@@ -1,0 +1,32 @@
+# What all explorations that have been run come to, beside Table 1 and the smooth shell.
+
+from foldshell.files.errors import InputError
+
+
+def explored_tables(wildcards):
+    """Return the explore.tsv of all explorations in the results."""
+    found = sorted(map(str, Path(RESULTS).glob("explorations/*/explore.tsv")))
+    with user_errors():
+        if not found:
+            raise InputError(
+                f"{RESULTS}/explorations: no exploration has been run: type snakemake explore "
+                "--config exploration=FILE first"
+            )
+    return found
+
+
+rule fold_answer:
+    input:
+        tables=explored_tables,
+        library=code_inputs("fold_answer"),
+    output:
+        page=f"{RESULTS}/explorations/function_follows_fold.md",
+        picture=f"{RESULTS}/explorations/function_follows_fold.png",
+    log:
+        f"{RESULTS}/logs/fold_answer.log",
+    conda:
+        "../envs/foldshell.yaml"
+    message:
+        "what the fold buys, and what it costs"
+    script:
+        "../scripts/fold_answer.py"
