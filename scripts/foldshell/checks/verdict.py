@@ -77,10 +77,17 @@ def _describe(check: EngineeringCheck, begin: str) -> str:
     unit = f" {check.unit}" if check.unit else ""
     where = [check.governing_combination, None if check.panel is None else f"panel {check.panel}"]
     placed = ", ".join(filter(None, where))
-    text = f"{begin}: {show(check.value)} {relation} {show(check.limit)}{unit}"
+    value, limit = show_both(check.value, check.limit)
+    text = f"{begin}: {value} {relation} {limit}{unit}"
     return f"{text} ({placed})" if placed else text
 
 
-def show(value: float) -> str:
-    """Return a number with three digits, or all before the point."""
-    return f"{value:.3g}" if abs(value) < 1000 else f"{value:.0f}"
+def show_both(value: float, limit: float) -> tuple[str, str]:
+    """Return both with three digits, or as many as tell them apart."""
+    pairs = ((show(value, digits), show(limit, digits)) for digits in range(3, 18))
+    return next((pair for pair in pairs if pair[0] != pair[1]), (str(value), str(limit)))
+
+
+def show(value: float, digits: int) -> str:
+    """Return a number with some digits, or all before the point."""
+    return f"{value:.{digits}g}" if abs(value) < 10**digits else f"{value:.0f}"

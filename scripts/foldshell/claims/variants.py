@@ -58,8 +58,11 @@ def measure_variant(
 
 
 def add_shear(measures: Measures, shear: Mapping[str, ShearShare] | None) -> Measures:
-    """Return the measures with the values that shear deformation gives, as far as it is known."""
-    found = {}
+    """Return the measures with the values that shear deformation gives, as far as it is known; a
+    state that it takes past a limit is not converged."""
+    found: dict[str, float | str] = {}
+    if shear and any(one.turns for one in shear.values()):
+        found["state"] = "not_converged"
     for key, names in SHEARED.items():
         if shear and key in shear:
             values = {name: getattr(measures, name) for name in names}

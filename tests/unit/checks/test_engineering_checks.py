@@ -101,3 +101,8 @@ def test_the_reason_begins_with_what_failed_and_names_its_place():
         "buckling factor: 2.13 below 6 (ULS5, panel 7); sway: 0.05 above 0.033 m; "
         "long-term: not known; within the mesh error: near"
     )
+
+
+def test_a_value_just_beyond_its_limit_is_shown_with_the_digits_that_tell():
+    check = hold_against("factor", Found(1.4973), 1.5, at_least=True)
+    assert judge_checks({"a": check}, {})[1] == "factor: 1.497 below 1.5"
