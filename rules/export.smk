@@ -18,6 +18,7 @@ for FORMAT in FORMATS:
             classes=CLASSES["arrays"],
             pattern=rules.pattern.output.fold,
             design_vtu=rules.draw.output.vtu,
+            checks=rules.check.output.record,
             files=files_of_design,
             content=files_content,
             library=code_inputs("export"),

@@ -189,7 +189,8 @@ def _panel_values(
         columns[f"utilization_{measure}"] = values
     for name, values in (checks.get("panels") or {}).items():
         numbers = np.array([np.nan if v is None or isinstance(v, str) else v for v in values])
-        if numbers.shape == (sized,):
+        known = name in ("panel", "thickness_m", "area_m2") or name.startswith("centroid")
+        if numbers.shape == (sized,) and not known and np.isfinite(numbers).any():
             columns[f"check_{name}"] = np.append(numbers, np.full(count - sized, np.nan))
     return columns
 

@@ -94,7 +94,10 @@ def _list_verdict(
     last = iterations.final
     return [
         *_describe_design(design),
-        *make_lines(last, ("verdict", "reason")),
+        *(
+            replace(line, words=f"{line.words} by the paper's criteria")
+            for line in make_lines(last, ("verdict", "reason"))
+        ),
         *([] if engineering is None else describe_engineering(engineering)),
         Line("model warnings", last.warning or "none"),
         Line("iterations", len(iterations.analyses)),
