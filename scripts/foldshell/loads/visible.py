@@ -72,7 +72,7 @@ def _is_covered(
     middle = pieces.evaluate(mine).mean(axis=1) * pieces.share[:, None]
     centre = np.stack(
         [np.bincount(pieces.owner, column, len(below)) for column in middle.T], axis=1
-    )
+    ).astype(float)  # counts of nothing are whole numbers
     overlap = share > 1e-12
     centre[overlap] /= share[overlap, None]
     height = _plane_height(triangle, centre)
