@@ -12,8 +12,8 @@ from foldshell.records.mesh_convergence import MeshConvergenceRecord
 from foldshell.records.sheet_arrays import MeshArrays
 from foldshell.results.engineering_record import check_final_state
 from foldshell.settings.analysed import ANALYSED
-from foldshell.settings.checks import Checks
 from foldshell.settings.codes import Codes
+from foldshell.settings.reinforcement import Co2, Prices
 from foldshell.settings.stage import Plain, read_stage
 from foldshell.sizing.case import open_case
 from foldshell.workbook.engineering import write_engineering
@@ -34,7 +34,8 @@ def main(
     `paths` are mesh, arrays (npz), final and mesh_convergence (json); `settings` are those of the
     stages `size` and `checks`.
     """
-    given, report = read_stage(settings, *ANALYSED, Codes, Checks), read_analysis(paths["final"])
+    given = read_stage(settings, *ANALYSED, Codes, Co2, Prices)
+    report = read_analysis(paths["final"])
     final = read_typed_arrays(paths["arrays"], AnalysisArrays)
     shell = read_typed_arrays(paths["mesh"], MeshArrays)
     errors = read_record(paths["mesh_convergence"], MeshConvergenceRecord)

@@ -57,7 +57,8 @@ def unknown_check(words: str, limit: float, unit: str = "", at_least: bool = Fal
 def judge_checks(
     checks: Mapping[str, EngineeringCheck], failures: Mapping[str, str]
 ) -> tuple[EngineeringVerdict, str]:
-    """Return verdict and reason; `failures` begins the words of a check that fails.
+    """Return verdict and reason; `failures` begins the words of a check that fails; where it has no
+    value they are all.
 
     A check that may turn within its mesh error is named in either case.
     """
@@ -66,7 +67,12 @@ def judge_checks(
     doubt = f"; within the mesh error: {', '.join(near)}" if near else ""
     if not failed:
         return "passes", f"all checks are met{doubt}"
-    words = [_describe(one, failures.get(name, one.words)) for name, one in failed.items()]
+    words = [
+        failures[name]
+        if name in failures and one.value is None
+        else _describe(one, failures.get(name, one.words))
+        for name, one in failed.items()
+    ]
     return "fails", "; ".join(words) + doubt
 
 

@@ -40,6 +40,10 @@ class Criteria:
         "largest utilization of the mean forces of a facet or a strip, at most its limit", "-",
         "utilization, largest strip mean", left_out=True,
     )  # fmt: skip
+    utilization_reinforced: Criterion | None = entry(
+        "largest share of what steel and concrete of a panel allow, at most its limit", "-",
+        "reinforced concrete, largest share of what is allowed", left_out=True,
+    )  # fmt: skip
     utilization_min: Criterion | None = entry(
         "the same largest value, at least its lower limit: the shell is used", "-",
         "the same, at least", left_out=True,
@@ -82,6 +86,7 @@ DECIDES = {
     "panel_mean": "utilization_panel_mean_max",
     "element_max": "utilization_max",
     "strip": "utilization_strip_max",
+    "reinforced": "utilization_reinforced_max",
 }
 """What the loop holds against the limit of utilization, by its measure."""
 NO_LIMIT = "no limit, for information"
@@ -132,6 +137,11 @@ class ShellState:
         "largest utilization of the mean forces of a facet or of a strip beside a fold or border, "
         "where the loop sizes by it",
         "-", "utilization, largest strip mean", left_out=True,
+    )  # fmt: skip
+    utilization_reinforced_max: float | None = entry(
+        "largest share of what steel and concrete allow (strut, ratio of steel, shear, fit), where "
+        "the loop sizes by it",
+        "-", "reinforced concrete, largest share", left_out=True,
     )  # fmt: skip
     governing_combination: str | None = entry(
         "strength combination under which the most utilized panel, by the measure of the loop, is "

@@ -25,6 +25,9 @@ class AnalysisArrays:
     utilization_strip: np.ndarray | None = array(
         "P", "-", "largest facet or strip mean of a panel, where the loop sizes by it"
     )
+    utilization_reinforced: np.ndarray | None = array(
+        "P", "-", "largest share of what steel and concrete allow, where the loop sizes by it"
+    )
     edge_beam_utilization_panel_mean: np.ndarray | None = array(
         "B", "-", "area mean over a panel of the edge beam"
     )
@@ -33,6 +36,9 @@ class AnalysisArrays:
     )
     edge_beam_utilization_strip: np.ndarray | None = array(
         "B", "-", "largest facet or strip mean of a panel of the edge beam"
+    )
+    edge_beam_utilization_reinforced: np.ndarray | None = array(
+        "B", "-", "nothing: an edge beam carries its own weight alone"
     )
     edge_beam_panel: np.ndarray | None = array("B", "", "panel of the sheet that holds each")
     panel_fixed: np.ndarray | None = array(

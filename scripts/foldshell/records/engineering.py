@@ -7,6 +7,7 @@ import numpy as np
 
 from foldshell.records.arrays import array
 from foldshell.records.entry import COUNT, entry
+from foldshell.records.reinforcement import ReinforcementRecord
 
 EngineeringVerdict = Literal["passes", "fails", "not_applicable"]
 Factors = dict[str, dict[str, float]]
@@ -73,6 +74,9 @@ class EngineeringRecord:
     )
     analyses: int = entry("analyses of the final state that were made for this verdict", COUNT)
     panels: dict[str, tuple[Any, ...]] = entry("values of panels: an array by each name")
+    reinforcement: ReinforcementRecord | None = entry(
+        "reinforced concrete; null where there is none", default=None
+    )
 
 
 @dataclass(frozen=True)

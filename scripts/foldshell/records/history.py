@@ -28,6 +28,7 @@ class HistoryRow:
         ShellState, "utilization_panel_mean_max", left_out=False
     )
     utilization_strip_max: float | None = same(ShellState, "utilization_strip_max")
+    utilization_reinforced_max: float | None = same(ShellState, "utilization_reinforced_max")
     panels_above_one: int | None = same(ShellState, "panels_above_one", left_out=False)
     panels_at_bound: int | None = same(ShellState, "panels_at_bound", left_out=False)
     displacement_vertical_max_m: float | None = same(

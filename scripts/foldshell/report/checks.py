@@ -10,7 +10,8 @@ from foldshell.records.entry import Entry
 from foldshell.report.markup import format_number
 from foldshell.report.places import PanelPlace, describe_place, read_panels
 
-OF_PANELS = ("utilization_panel_mean", "utilization_element_max", "utilization_strip")
+OF_PANELS = ("utilization_panel_mean", "utilization_element_max", "utilization_strip",
+             "utilization_reinforced")  # fmt: skip
 """Criteria on the utilization of panels, by the measure of the loop."""
 LIMITS = (*OF_PANELS, "displacement_vertical_m", "edge_beam_utilization")
 """Criteria of the sizing loop that are limits of a structure; the others stop the loop."""

@@ -53,5 +53,6 @@ def read_panels(final: str | Path, folded: str | Path) -> dict[str, PanelPlace]:
     except InputError:
         return {}
     names = ("utilization_panel_mean", "utilization_element_max", "utilization_strip")
+    names += ("utilization_reinforced",)
     found = {name: find_panel(getattr(arrays, name), sheet) for name in names}
     return {name: place for name, place in found.items() if place is not None}

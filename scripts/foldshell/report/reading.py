@@ -26,6 +26,8 @@ def say_measure(final: AnalysisRecord) -> str:
         return "The largest utilization of all points decides."
     if final.criteria.utilization_strip is not None:
         return "The largest mean over a facet or a strip beside a fold or border decides."
+    if final.criteria.utilization_reinforced is not None:
+        return "The largest share of what steel and concrete of a panel allow decides."
     if final.criteria.utilization_panel_mean is not None:
         return (
             "The mean utilization of a panel decides; peaks above the limit at points (red in the "

@@ -1,7 +1,7 @@
 """The engineering verdict on a final state: what engineering.json and engineering.npz hold."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,7 @@ from foldshell.checks.verdict import Found, hold_against, judge_checks, unknown_
 from foldshell.records.engineering import EngineeringCheck
 from foldshell.records.mesh_convergence import MeshConvergenceRecord
 from foldshell.results.engineering_state import EngineeringState
+from foldshell.results.reinforcement import Reinforced
 from foldshell.settings.checks import Checks
 from foldshell.shell.analysis import AnalysisResult
 from foldshell.shell.results import translations
@@ -39,10 +40,12 @@ def judge_state(
     span: float,
     errors: MeshConvergenceRecord,
     warnings: Sequence[str],
+    reinforced: Reinforced | None = None,
 ) -> Judged:
     """Hold a final state against every check of its material; span m.
 
-    `errors` are those of the mesh, `warnings` what theory or mesh does not hold.
+    `errors` are those of the mesh, `warnings` what theory or mesh does not hold, `reinforced` what
+    steel there is: with it the strength of plain concrete is for information.
     """
     material, none = state.case.material, np.empty((0, 0))
     check = choose_strength_check(material, checks.partial_factor)
@@ -57,9 +60,18 @@ def judge_state(
             "model, bounds of theory and mesh that are passed", Found(float(len(warnings))), None
         ),
     }
+    failures = {}
+    if reinforced is not None:
+        found["strength"] = replace(found["strength"], limit=None, met=None,
+                                    within_mesh_error=False)  # fmt: skip
+        found |= reinforced.checks
+        failures["reinforced_fit"] = reinforced.fit
+        if reinforced.refused:
+            failures["reinforcement"] = f"reinforcement: {reinforced.refused}"
+            found["reinforcement"] = unknown_check(failures["reinforcement"], 1.0)
     above = int((used.max(axis=1) > 1).sum())
     words = f"{check.failure} in {above} of {len(used)} panels"
-    return Judged(*judge_checks(found, {"strength": words}), found, used)
+    return Judged(*judge_checks(found, {"strength": words, **failures}), found, used)
 
 
 def find_utilization(state: EngineeringState, checks: Checks) -> np.ndarray:

@@ -24,6 +24,7 @@ from foldshell.records.mesh_convergence import MeshConvergenceRecord
 from foldshell.records.sheet_arrays import MeshArrays
 from foldshell.results.engineering import Judged, judge_state
 from foldshell.results.engineering_state import EngineeringState, analyse_final_state
+from foldshell.results.reinforcement import Reinforced, reinforce_state
 from foldshell.results.section_forces import COMPONENTS, average_panels
 from foldshell.settings.checks import Checks
 from foldshell.settings.material import Material
@@ -60,9 +61,10 @@ def check_final_state(
     except ValueError as error:
         return leave_open(str(error), settings.material, checks), EngineeringArrays()
     state = analyse_final_state(case, combinations, final.thickness, checks, final.buckling_modes)
-    judged = judge_state(state, checks, span, errors, report.model_warnings or ())
+    reinforced = reinforce_state(state, settings)
+    judged = judge_state(state, checks, span, errors, report.model_warnings or (), reinforced)
     measures = measure_loop_state(state, final, len(settings.combinations.strength))
-    return make_record(state, judged, checks, measures, shell)
+    return make_record(state, judged, checks, measures, shell, reinforced)
 
 
 def leave_open(reason: str, material: Material, checks: Checks) -> EngineeringRecord:
@@ -133,6 +135,7 @@ def make_record(
     checks: Checks,
     measures: Mapping[str, Measures],
     shell: MeshArrays,
+    reinforced: Reinforced | None = None,
 ) -> tuple[EngineeringRecord, EngineeringArrays]:
     """Return the record and the arrays of a judged state; `shell` are those of mesh.npz."""
     required = require_factor(checks, state.case.material.kind)
@@ -153,9 +156,15 @@ def make_record(
         loads=sum_cases(state),
         reactions=edges,
         analyses=state.analyses,
-        panels=describe_panels(state, judged, arrays),
+        panels=describe_panels(state, judged, arrays) | _list_steel(reinforced),
+        reinforcement=reinforced and reinforced.record,
     )  # fmt: skip
     return record, arrays
+
+
+def _list_steel(reinforced: Reinforced | None) -> dict[str, tuple[Any, ...]]:
+    columns = {} if reinforced is None else reinforced.columns
+    return {name: tuple(values.tolist()) for name, values in columns.items()}
 
 
 def _list_factors(state: EngineeringState) -> dict[str, float | None]:

@@ -4,8 +4,10 @@ from foldshell.settings.analysis import Analysis
 from foldshell.settings.checks import Checks
 from foldshell.settings.loads import Combinations, Loads
 from foldshell.settings.material import Material
+from foldshell.settings.reinforcement import Reinforcement
 from foldshell.settings.sizing import Sizing
 
 LOADED = (Material, Loads, Combinations)
-ANALYSED = (*LOADED, Analysis, Sizing, Checks)
-"""How a shell is analysed and sized; of the checks a loop takes the width of strips alone."""
+ANALYSED = (*LOADED, Analysis, Sizing, Checks, Reinforcement)
+"""How a shell is analysed and sized; of the checks a loop takes the width of strips alone,
+of reinforcement nothing unless it sizes by it."""

@@ -5,18 +5,18 @@ from foldshell.settings.crosscheck import GOVERNING, Crosscheck
 from foldshell.settings.design import Design
 from foldshell.settings.loads import Combinations, Loads
 from foldshell.settings.nearest import hint_nearest
-from foldshell.settings.sizing import Sizing
+from foldshell.settings.sizing import REINFORCED, Sizing
 
-NO_MEASURES = ("reinforced",)
-"""Measures that have a name and nothing behind it yet."""
+NO_GRADIENT = (REINFORCED,)
+"""Measures whose gradient is not known."""
 
 
 def check_sizing(sizing: Sizing, source: str) -> None:
     """Check least <= start <= largest thickness, the order of the dead band and the measure."""
-    if sizing.measure in NO_MEASURES:
+    if sizing.measure in NO_GRADIENT and sizing.rule == "optimality":
         raise InputError(
-            f"{source}: sizing.measure: {sizing.measure!r}: panels cannot be sized with their "
-            "reinforcement yet: panel_mean, element_max or strip is allowed"
+            f"{source}: sizing.measure: {sizing.measure!r} has no gradients for the rule "
+            "optimality: dead_band, filtered_dead_band or fully_stressed is allowed"
         )
     least, start = sizing.least_thickness, sizing.start_thickness
     if least > sizing.largest_thickness:

@@ -3,6 +3,7 @@
 from foldshell.settings.field import Group, setting, settings_group
 
 KINDS = ("bars", "central_mesh", "textile", "none")
+USES = ("strut", "ratio", "shear", "fit")
 EXPOSURES = ("X0", "XC1", "XC2", "XC3", "XC4", "XD1", "XD2", "XD3", "XS1", "XS2", "XS3")
 CLASSES = ("S1", "S2", "S3", "S4", "S5", "S6")
 _EC2 = "EN 1992-1-1"
@@ -126,6 +127,11 @@ class Reinforcement(Group):
         maximum=10000,
         meaning=f"Thickness from which shear may be carried by links ({_EC2}, 9.3.2 (1)).",
     )
+    sizing_checks: tuple[str, ...] = setting(
+        USES, choices=USES,
+        meaning="What sizing.measure reinforced looks at, the largest counts: compression of "
+        "struts, steel over ratio_max, shear beside folds, room for bars and covers.",
+    )  # fmt: skip
     textile: Textile
 
 
@@ -182,4 +188,4 @@ class Prices(Group):
     range_share: float = setting(
         0, minimum=0, maximum=1, meaning="Prices are uncertain by this part, up and down."
     )
-    source: str = setting("", longest=120, meaning="Where the prices are from.")
+    source: str = setting("not given", longest=120, meaning="Where the prices are from.")

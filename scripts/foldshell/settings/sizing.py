@@ -8,6 +8,10 @@ _STEP = ("resize", "size", "study")
 """Stages that get settings of the loop, of the verdict on an analysis, of the next thickness."""
 
 
+REINFORCED = "reinforced"
+"""The measure that takes the settings of reinforcement."""
+
+
 @settings_group
 class Sizing(Group):
     """Thickness loop, criteria of Table 3 of the paper. Results depend on start, step and least
@@ -27,10 +31,11 @@ class Sizing(Group):
         "least volume that keeps utilization, displacement and buckling factor, by gradients.",
     )  # fmt: skip
     measure: str = setting(
-        "panel_mean", choices=("panel_mean", "element_max", "strip", "reinforced"), stages=_LOOP,
+        "panel_mean", choices=("panel_mean", "element_max", "strip", REINFORCED), stages=_LOOP,
         meaning="Utilization of a panel: its area mean (does not hang on the mesh), the largest "
         "value in it (the paper's), or the largest of its facet means and of the means over "
-        "strips along its folds and borders (local, and settles with the mesh).",
+        "strips along its folds and borders (local, and settles with the mesh); or (reinforced) "
+        "the largest share of what steel and concrete allow, by reinforcement.sizing_checks.",
     )  # fmt: skip
     start_thickness: float = setting(
         150, unit="mm", above=0, maximum=10000, stages=("start", "size", "study"),

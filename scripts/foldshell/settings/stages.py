@@ -13,7 +13,8 @@ from foldshell.settings.field import Plain, list_groups
 from foldshell.settings.fold import Fold, Pattern
 from foldshell.settings.load_sets import combinations_of, place_set
 from foldshell.settings.load_table import PAPER
-from foldshell.settings.sizing import Sizing
+from foldshell.settings.reinforcement import Co2, Prices, Reinforcement
+from foldshell.settings.sizing import REINFORCED, Sizing
 from foldshell.settings.stage import to_plain
 from foldshell.settings.study import Figures, Settings
 
@@ -30,8 +31,8 @@ STAGES: dict[str, tuple[type, ...]] = {
     "drawings": (Drawings,),
     "exports": (Exports,),
     "archive": (Archive,),
-    "checks": (Codes, Checks),
-    "study": (Pattern, Fold, *ANALYSED, Crosscheck),
+    "checks": (Codes, Checks, Reinforcement, Co2, Prices),
+    "study": (Pattern, Fold, *ANALYSED, Co2, Prices, Crosscheck),
 }
 """Groups that each stage takes; a setting with `stages` of its own goes to those alone."""
 
@@ -59,6 +60,8 @@ def stage_parameters(settings: Settings, stage: str, design: Design | None = Non
     for name, kind in list_groups(Settings).items():
         if kind in STAGES[stage]:
             chosen[name] = to_plain(getattr(settings, name), stage)
+    if stage in ("analyse", "size") and settings.sizing.measure != REINFORCED:
+        chosen["reinforcement"] = {}
     if design is not None and "combinations" in chosen:
         chosen["combinations"] = to_plain(combinations_of(settings, design), stage)
     if design is not None and "loads" in chosen and design.loads != PAPER:

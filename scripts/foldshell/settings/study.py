@@ -12,6 +12,7 @@ from foldshell.settings.fold import Fold, Pattern
 from foldshell.settings.load_table import LoadSets
 from foldshell.settings.loads import Combinations, Loads
 from foldshell.settings.material import Material
+from foldshell.settings.reinforcement import Co2, Prices, Reinforcement
 from foldshell.settings.sizing import Sizing
 
 
@@ -105,6 +106,9 @@ class Settings(Group):
     analysis: Analysis
     sizing: Sizing
     checks: Checks
+    reinforcement: Reinforcement
+    co2: Co2
+    prices: Prices
     crosscheck: Crosscheck
     limits: Limits
     jobs: Jobs

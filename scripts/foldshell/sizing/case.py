@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 
+from foldshell.checks.concrete.model import build_concrete_model
 from foldshell.checks.measures import NEED_STRIPS
 from foldshell.checks.strips import find_strips
 from foldshell.files.errors import InputError
@@ -12,6 +13,7 @@ from foldshell.files.whole import hash_data, hash_file
 from foldshell.loads.cases import make_load_cases
 from foldshell.records.arrays import read_checked_arrays
 from foldshell.records.sheet_arrays import MeshArrays
+from foldshell.settings.sizing import REINFORCED
 from foldshell.settings.stage import StageSettings
 from foldshell.shell.analysis import place_on_model
 from foldshell.shell.held_supports import build_supported_model
@@ -54,10 +56,14 @@ def make_case(arrays: Mapping[str, np.ndarray], settings: StageSettings) -> Anal
     asked = sizing.rule in NEED_CONSTRAINTS
     factor_min = least_factor_due(sizing) if asked else None
     notes = arrays.get("support_warnings")
-    strips = None
+    strips = concrete = None
     if sizing.measure in NEED_STRIPS:
         strips = find_strips(model.operators, settings.checks.strip_width)
+    if sizing.measure == REINFORCED:
+        asked, width = settings.reinforcement, settings.checks.strip_width
+        concrete = build_concrete_model(model.operators, model.sized_panels, asked, width)
     groups = settings.combinations, settings.analysis, sizing
     words = () if notes is None else tuple(map(str, notes.tolist()))
     placed = place_on_model(model, cases)
-    return AnalysisCase(model, material, cases, *groups, factor_min, words, placed, strips)
+    local = strips, concrete
+    return AnalysisCase(model, material, cases, *groups, factor_min, words, placed, *local)

@@ -114,6 +114,7 @@ def describe_sheet(done: Analysed, record: AnalysisRecord) -> AnalysisRecord:
         utilization_mean=float(area @ cell.mean(axis=1) / area.sum()),
         utilization_panel_mean_max=float(done.panels["panel_mean"].max()),
         utilization_strip_max=_find_largest(done.panels, "strip"),
+        utilization_reinforced_max=_find_largest(done.panels, "reinforced"),
         governing_combination=_find_governing(done),
         displacement_vertical_max_m=down,
         displacement_combination=combination,

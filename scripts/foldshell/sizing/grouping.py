@@ -15,7 +15,7 @@ from foldshell.sizing.iteration import AnalysisCase, IterationTask
 from foldshell.sizing.rounding import round_thickness
 
 CRITERIA = ("utilization_panel_mean", "utilization_element_max", "utilization_strip",
-            "displacement_vertical_m",
+            "utilization_reinforced", "displacement_vertical_m",
             "edge_beam_utilization")  # fmt: skip
 """What a grouped design has to keep; changes of volume mean nothing to it."""
 

@@ -5,6 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from foldshell.checks.concrete.model import ConcreteModel
 from foldshell.checks.measures import ALWAYS, MEASURES, StressState
 from foldshell.checks.strips import Strips
 from foldshell.checks.utilization import compute_utilization
@@ -84,6 +85,7 @@ class AnalysisCase:
     notes: tuple[str, ...] = ()
     placed: PlacedLoads | None = None
     strips: Strips | None = None
+    concrete: ConcreteModel | None = None
 
     def run(
         self, task: IterationTask, alone: bool = False, effort: Effort = FULL
@@ -167,7 +169,7 @@ def evaluate(
     strength = result.displacement[:, : len(groups.strength)]
     found = model, strength, thickness, material
     utilization = compute_utilization(*found, result.imposed)
-    stress = StressState(*found, utilization, case.strips, result.imposed)
+    stress = StressState(*found, utilization, case.strips, result.imposed, case.concrete)
     panels, edge_beam_panels = {}, {}
     for name in dict.fromkeys([*ALWAYS, case.sizing.measure]):
         values = MEASURES[name].panels(stress)

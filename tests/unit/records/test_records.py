@@ -141,12 +141,23 @@ def test_every_key_with_a_unit_in_its_name_has_that_unit():
             suffix = re.search(r"_([a-z]+[23]?)$", key)
             if key == "volume_per_area_m":
                 assert about.unit in ("m", "m3/m2")
-            elif key == "steel_kg_m2":
-                assert about.unit == "kg/m2"
+            elif key.endswith(("_kg_m2", "_kg_m3", "_cm2_m")):
+                assert about.unit == "/".join(key.split("_")[-2:])
             elif suffix and suffix[1] in UNITS:
                 assert about.unit == UNITS[suffix[1]], f"{kind.__name__}.{key}"
                 checked += 1
-            assert about.unit in {*UNITS.values(), "", "-", COUNT, "m3/m2", "kg/m2"}, key
+            assert about.unit in {
+                *UNITS.values(),
+                "",
+                "-",
+                COUNT,
+                "m3/m2",
+                "kg/m2",
+                "kg/m3",
+                "cm2/m",
+                "mm",
+                "kg",
+            }, key
     assert checked > 60
 
 

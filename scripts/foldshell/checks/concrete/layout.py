@@ -102,7 +102,6 @@ def refuse_layout(asked: Reinforcement, thickness: np.ndarray) -> str:
     if refused:
         return refused
     layout, thinnest = lay_out(asked), float(np.min(thickness))
-    least = 2 * layout.cover + 2 * layout.diameter
     if layout.cover >= thinnest:
         return (
             f"cover of {1e3 * layout.cover:g} mm is not less than the sheet's "
@@ -118,11 +117,19 @@ def refuse_layout(asked: Reinforcement, thickness: np.ndarray) -> str:
             f"exposure {asked.exposure} needs a cover of {1e3 * layout.cover_needed:g} mm, "
             f"cover_mm is {1e3 * layout.cover:g}"
         )
-    too_thin = int((np.asarray(thickness) < least - 1e-9).sum())
-    if too_thin:
-        return (
-            f"{too_thin} panels from {1e3 * thinnest:.4g} mm have no place for bars of "
-            f"{1e3 * layout.diameter:g} mm under {1e3 * layout.cover:g} mm of cover, which takes "
-            f"{1e3 * least:g} mm"
-        )
     return ""
+
+
+def describe_fit(layout: Layout, thickness: np.ndarray) -> str:
+    """Return a sentence of the panels in which one mesh has not its cover, else how bars fit.
+
+    thickness (P,) m.
+    """
+    thinnest, too_thin = float(np.min(thickness)), np.asarray(thickness) < layout.least - 1e-9
+    if not too_thin.any():
+        return "bars do not fit between their least distances"
+    return (
+        f"{int(too_thin.sum())} panels from {1e3 * thinnest:.4g} mm have no place for crossing "
+        f"bars of {1e3 * layout.diameter:g} mm under {1e3 * layout.cover_needed:g} mm of cover, "
+        f"which take {1e3 * layout.least:g} mm"
+    )

@@ -36,7 +36,8 @@ class SandwichDesign:
     ----------
     steel : (..., 2, 2) kN/m, bottom and top layer, bars along x and y
     strut : (..., 2) kN/m, largest compression of each cover
-    strut_use : (..., 2) its share of what the depth of the cover carries
+    strut_use : (..., 2) its share of what half the thickness carries: where a strut needs more than
+        twice the level of its bars, its distance from them is left out
     lever : (..., 2) m, distance of each cover from the middle surface
     force : (..., 2, 3) kN/m, force of each cover
     """
@@ -78,9 +79,8 @@ def design_sandwich(
         lever = _find_levers(found, half, at_steel, levels)
     shared = split_between_covers(force, moment, lever)
     found = design_membrane(shared)
-    depth = np.minimum(half, np.where(found.cracked, 2 * (half - at_steel), half))
     strength = np.where(found.cracked, levels.strut_strength, levels.strength)
-    use = found.strut / (depth * strength)
+    use = found.strut / (half * strength)
     return SandwichDesign(found.steel, found.strut, use, lever, shared)
 
 
