@@ -91,7 +91,7 @@ JUDGED = {
 }
 SIZED = ["folded/folded.npz", "folded/quality.json", "shell/mesh.npz", "mesh_convergence.json"]
 SIZED += ["sizing/00/analysis.json", "sizing/00/analysis.npz", "sizing/final.json"]
-SIZED += ["sizing/final.npz", "crosscheck/comparison.json"]
+SIZED += ["sizing/final.npz", "crosscheck/comparison.json", "checks/engineering.json"]
 
 
 def exported(design):

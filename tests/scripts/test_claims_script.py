@@ -30,6 +30,7 @@ from record_cases import (
     make_analysis,
     make_comparison,
     make_convergence,
+    make_engineering,
     make_quality,
     make_quantity,
 )
@@ -73,6 +74,8 @@ def _write_design(folder):
     governing = {"displacement": "D3", "utilization": "S4", "buckling": "S4"}
     path = folder / "crosscheck/comparison.json"
     write_record(path, make_comparison(True, quantities, governing=governing))
+    strips = {"utilization_strip": tuple(np.linspace(0.5, 1.5, PANELS).tolist())}
+    write_record(folder / "checks/engineering.json", make_engineering(panels=strips))
 
 
 def _write_study(results):
@@ -242,3 +245,12 @@ def test_a_loop_by_strips_is_judged_by_strips(study):
     assert measures.utilization_strip_max is not None
     assert result.measure("utilization_panel_mean_max") == measures.utilization_strip_max
     assert result.measure("utilization_mean") == measures.utilization_strip_mean
+
+
+def test_claims_are_judged_by_both_measures(study):
+    """C10 asks for the largest utilization: 1.5 by strips, so strength comes first, at 0.67."""
+    entries = {entry["id"]: entry for entry in json.loads(_judge(study)[0])}
+    found = entries["C10"]["sensitivity"]
+    assert found["by_strips"]["parts"]["buckling before strength"] == "fails"
+    assert "By strips instead of panel means" in found["words"]
+    assert entries["C1"]["sensitivity"]["by_strips"] is None

@@ -1,7 +1,7 @@
 """The result of a design, its uncertainty, and designs that differ in one thing only."""
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, field, fields
+from dataclasses import dataclass, field, fields, replace
 from itertools import pairwise
 from typing import Any
 
@@ -65,7 +65,7 @@ class DesignResult:
     `values` are the measures of its state, of a sheet that was only folded those of its geometry;
     `errors` the relative mesh error and cross-check difference of displacement, utilization and
     buckling (None where unknown), `panels` (2, P) planarity and utilization, `warning` what theory
-    or mesh does not hold of its final state.
+    or mesh does not hold of its final state, `strips` the utilization of that state by strips.
     """
 
     row: DesignRow
@@ -74,6 +74,7 @@ class DesignResult:
     quality: QualityRecord | None = None
     panels: np.ndarray | None = None
     warning: str | None = None
+    strips: Mapping[str, float] | None = None
 
     def measure(self, quantity: str) -> float | None:
         """Return a quantity by its name, None where it was not measured.
@@ -83,6 +84,11 @@ class DesignResult:
         value = getattr(self.values, BY_STRIPS.get(quantity, ""), None)
         value = getattr(self.values, quantity, None) if value is None else value
         return getattr(self.quality, quantity, None) if value is None else value
+
+    @property
+    def by_strips(self) -> "DesignResult":
+        """The same state, its utilization that of strips."""
+        return replace(self, values=replace(self.values, **self.strips or {}))
 
     @property
     def name(self) -> str:

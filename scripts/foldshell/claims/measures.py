@@ -116,9 +116,14 @@ def measure_strips(
     where those of points stand else.
     """
     used = arrays.utilization(measure) if measure == STRIP else None
-    if used is None:
-        return {}
-    area = measure_panel_areas(mesh, layout)
+    return {} if used is None else summarise_strips(used, measure_panel_areas(mesh, layout))
+
+
+def summarise_strips(used: np.ndarray, area: np.ndarray) -> dict[str, float]:
+    """Return largest, mean and variation of the utilization of panels by strips.
+
+    used (P,) without unit, area (P,) m2.
+    """
     return {
         "utilization_strip_max": float(used.max()),
         "utilization_strip_mean": float(area @ used / area.sum()),

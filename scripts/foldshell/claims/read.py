@@ -1,17 +1,25 @@
 """Outcomes of designs from the files under results/<design>."""
 
+from collections.abc import Mapping
 from dataclasses import fields, replace
 from pathlib import Path
 
 import numpy as np
 
 from foldshell.claims.design_result import DesignResult
-from foldshell.claims.measures import Layout, measure_depth, measure_state
+from foldshell.claims.measures import (
+    Layout,
+    measure_depth,
+    measure_panel_areas,
+    measure_state,
+    summarise_strips,
+)
 from foldshell.pattern.angles import flat_foldability_residual
 from foldshell.pattern.grid import build_grid
 from foldshell.records.arrays import read_checked_arrays, read_typed_arrays
 from foldshell.records.comparison import read_comparison
 from foldshell.records.design_row import DesignRow
+from foldshell.records.engineering import EngineeringRecord
 from foldshell.records.files import read_record
 from foldshell.records.iteration import read_iteration
 from foldshell.records.measures import Geometry, VariantRecord
@@ -65,7 +73,20 @@ def read_design_result(
     if used is not None and fold.values.depth is not None:
         planarity = read_typed_arrays(folder / "folded/folded.npz", FoldedArrays).planarity
         final = replace(final, panels=np.stack([planarity, used]))
-    return replace(final, warning=last[0].warning), start
+    strips = read_strips(folder / "checks/engineering.json", mesh, make_layout(row))
+    return replace(final, warning=last[0].warning, strips=strips), start
+
+
+def read_strips(
+    path: Path, mesh: Mapping[str, np.ndarray], layout: Layout
+) -> dict[str, float] | None:
+    """Return the utilization of a final state by strips, None where the checks found none.
+
+    `mesh` are the arrays of mesh.npz.
+    """
+    used = read_record(path, EngineeringRecord).panels.get("utilization_strip")
+    area = measure_panel_areas(mesh, layout)
+    return summarise_strips(np.array(used), area) if used and len(used) == len(area) else None
 
 
 def read_variant(design_result: DesignResult, path: str | Path) -> DesignResult:

@@ -76,11 +76,37 @@ def judge_equal_thickness(
     return JudgedParts(verdict=verdict, parts=parts)
 
 
+def judge_by_strips(
+    key: str, design_results: Sequence[DesignResult], comparer: Comparer
+) -> JudgedParts | None:
+    """Return the verdicts of a claim on the same final states, utilization being that of strips.
+
+    None where the claim knows no utilization, or where no state has it by strips.
+    """
+    known = [one.by_strips for one in design_results if one.strips]
+    if key not in SENSITIVE or not known:
+        return None
+    verdict, parts = SENSITIVE[key](known, comparer).judge()
+    return JudgedParts(verdict=verdict, parts=parts) if parts else None
+
+
+def _compare_measures(claim: Claim, strips: JudgedParts) -> str:
+    """Say what judging by strips changes."""
+    verdict, parts = claim.judge()
+    base = JudgedParts(verdict=verdict, parts=parts)
+    changes = _find_changes(base, strips)
+    if not changes:
+        return "By strips instead of panel means, on the same final states: the same verdicts."
+    shown = ", ".join(f"{part}: {verdict_label(found)}" for part, found in changes.items())
+    return f"By strips instead of panel means, on the same final states: {shown}."
+
+
 def describe_dependence(
     claim: Claim,
     runs: JudgedVariants | None,
     equal: JudgedParts | None,
     variants: Mapping[str, Sequence[DesignResult]],
+    strips: JudgedParts | None = None,
 ) -> str:
     """Say in words how far a verdict depends on the settings."""
     words = []
@@ -103,6 +129,8 @@ def describe_dependence(
     if equal is not None and equal.verdict != UNTOLD:
         parts = ", ".join(f"{part}: {verdict_label(v)}" for part, v in equal.parts.items())
         words.append(f"At one thickness for all panels, before any sizing: {parts}.")
+    if strips is not None:
+        words.append(_compare_measures(claim, strips))
     return " ".join(words)
 
 

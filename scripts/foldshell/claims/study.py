@@ -10,6 +10,7 @@ from foldshell.claims.planarity import describe_planarity
 from foldshell.claims.sensitive import (
     SENSITIVE,
     describe_dependence,
+    judge_by_strips,
     judge_equal_thickness,
     judge_variants,
 )
@@ -63,10 +64,12 @@ def _describe(claim: Claim, design_results, equal, variants, comparer: Comparer)
     entry = describe_claim(claim)
     runs = judge_variants(claim.key, variants, comparer)
     level = judge_equal_thickness(claim.key, equal, comparer)
-    words = describe_dependence(claim, runs, level, variants)
+    strips = judge_by_strips(claim.key, design_results, comparer)
+    words = describe_dependence(claim, runs, level, variants, strips)
     if claim.key in SENSITIVE:
         words += _describe_states([one for one in design_results if one.name in entry.designs])
-    return replace(entry, sensitivity=Dependence(words=words, runs=runs, equal_thickness=level))
+    dependence = Dependence(words=words, runs=runs, equal_thickness=level, by_strips=strips)
+    return replace(entry, sensitivity=dependence)
 
 
 def _describe_states(design_results: Sequence[DesignResult]) -> str:

@@ -111,6 +111,10 @@ class Dependence:
     equal_thickness: JudgedParts | None = entry(
         "at one thickness for all panels; null where the claim is not asked there"
     )
+    by_strips: JudgedParts | None = entry(
+        "on the same final states, with the utilization of strips; null where none enters",
+        default=None,
+    )
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -1,14 +1,14 @@
 """What engineering.json and engineering.npz say of a judged state."""
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict
+from dataclasses import asdict, replace
 from typing import Any
 
 import numpy as np
 
 from foldshell.checks.stability import RequiredFactor, require_factor
 from foldshell.checks.strength import CRITERIA
-from foldshell.checks.strips import utilization_of_strips
+from foldshell.checks.strips import largest_of_panels, utilization_of_strips
 from foldshell.checks.utilization import panel_utilization
 from foldshell.loads.combinations import engineering_combinations
 from foldshell.records.analysis import AnalysisRecord
@@ -63,8 +63,12 @@ def check_final_state(
     state = analyse_final_state(case, combinations, final.thickness, checks, final.buckling_modes)
     reinforced = reinforce_state(state, settings)
     judged = judge_state(state, checks, span, errors, report.model_warnings or (), reinforced)
-    measures = measure_loop_state(state, final, len(settings.combinations.strength))
-    return make_record(state, judged, checks, measures, shell, reinforced)
+    measures, strips = measure_loop_state(state, final, len(settings.combinations.strength))
+    record, arrays = make_record(state, judged, checks, measures, shell, reinforced)
+    if strips is None:
+        return record, arrays
+    own = {"utilization_strip": tuple(strips.tolist())}
+    return replace(record, panels={**record.panels, **own}), arrays
 
 
 def leave_open(reason: str, material: Material, checks: Checks) -> EngineeringRecord:
@@ -92,12 +96,15 @@ def describe_terms(required: RequiredFactor) -> dict[str, float]:
     return {**asdict(required), "product": required.product, "required": required.value}
 
 
-def measure_loop_state(state: EngineeringState, final: AnalysisArrays, count: int) -> dict:
+def measure_loop_state(
+    state: EngineeringState, final: AnalysisArrays, count: int
+) -> tuple[dict[str, Measures], np.ndarray | None]:
     """Return `Measures` of the loop's own strength combinations, the first `count` columns of the
-    displacements of final.npz, by criterion."""
+    displacements of final.npz, by criterion; and the largest strip of each panel (P,), without
+    unit, by that of the loop."""
     model, material = state.case.model, state.case.material
     if state.strips is None or final.displacement is None or final.utilization_cell is None:
-        return {}
+        return {}, None
     moved = final.displacement[:, :count]
     imposed = None if final.imposed_strain is None else final.imposed_strain[..., :count]
     found = stress_resultants(
@@ -107,7 +114,9 @@ def measure_loop_state(state: EngineeringState, final: AnalysisArrays, count: in
     force, moment = (evaluate(model.operators, one, flat) for one in (found.force, found.moment))
     stress = surface_stresses(force, moment, state.thickness)
     names = dict.fromkeys((*TABLED, material.criterion))
-    return {name: _measure(state, found, stress, final, name) for name in names}
+    own = utilization_of_strips(state.strips, found, state.thickness, material).max(axis=1)
+    panels = largest_of_panels(state.strips, own)[: model.sized_panels]
+    return {name: _measure(state, found, stress, final, name) for name in names}, panels
 
 
 def _measure(state, found, stress, final: AnalysisArrays, name: str) -> Measures:

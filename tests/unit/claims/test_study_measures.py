@@ -94,7 +94,7 @@ def test_no_answer_gives_no_numbers():
 def test_least_factor_is_that_of_the_strength_combinations():
     factors = {"S1": 4.0, "S2": 3.0, "S3": None, "D1": 2.0}
     record = make_analysis(iteration=14, volume_m3=80.0, area_m2=1600.0, buckling_factor=factors)
-    groups = Combinations({"S1": {}, "S2": {}, "S3": {}}, {"D1": {}})
+    groups = Combinations(strength={"S1": {}, "S2": {}, "S3": {}}, deflection={"D1": {}})
     mesh = mesh_folded_sheet(corrugated_sheet(), "all", 1)
     found = measure_state(
         mesh, Layout(ZIGZAG, STRIP, "all"), record, make_arrays(), groups, "panel_mean"
