@@ -90,7 +90,8 @@ def test_materials_have_their_own_strength(folder):
         values.append(found["checks"]["strength"]["value"])
         assert found["buckling_terms"]["required"] == 1.5
     assert values[1] == pytest.approx(1.25 * values[0], rel=1e-9)
-    concrete, _ = checked(folder, material={"strength_tension": 100.0})
+    plain = {"kind": "none"}
+    concrete, _ = checked(folder, material={"strength_tension": 100.0}, reinforcement=plain)
     assert concrete["verdict"] == "fails"
     assert concrete["reason"].startswith("tension without reinforcement in ")
 
