@@ -1,5 +1,7 @@
 """Checks of settings against each other, which no single one can state."""
 
+from collections.abc import Container
+
 from foldshell.files.errors import InputError
 from foldshell.settings.crosscheck import GOVERNING, Crosscheck
 from foldshell.settings.design import Design
@@ -81,8 +83,13 @@ def check_thickness(design: Design, sizing: Sizing, where: str) -> None:
             )
 
 
-def check_combinations(combinations: Combinations, loads: Loads, source: str) -> None:
-    """Check that names differ by more than case, and that each combination loads the shell."""
+def check_combinations(
+    combinations: Combinations, loads: Loads, source: str, others: Container[str] = ()
+) -> None:
+    """Check that names differ by more than case, and that each combination loads the shell.
+
+    `others` are cases of sets of loads, which are not 0.
+    """
     seen: dict[str, str] = {}
     for group in ("strength", "deflection"):
         for name in getattr(combinations, group):
@@ -96,17 +103,20 @@ def check_combinations(combinations: Combinations, loads: Loads, source: str) ->
                     + (f"names {kind} combination too, each name may stand once" if same else
                        f"differs from {first} in case alone: names that differ by more are allowed")
                 )  # fmt: skip
-    _check_loading(combinations, loads, source)
+    check_loading(combinations, loads, source, others)
 
 
-def _check_loading(combinations: Combinations, loads: Loads, source: str) -> None:
+def check_loading(
+    combinations: Combinations, loads: Loads, source: str, others: Container[str] = ()
+) -> None:
+    """Check that each combination loads the shell, by the values of the set `paper`."""
     wind = loads.wind * loads.wind_fraction
     value = {"SW": 1.0, "SDL": loads.superimposed_dead, "LL": loads.live, "WX": wind, "WY": wind}
     keys = {"SDL": "superimposed_dead_kn_m2", "LL": "live_kn_m2"}
     wind_keys = "wind_kn_m2 x wind_fraction"
     for group in ("strength", "deflection"):
         for name, factors in getattr(combinations, group).items():
-            if any(factor * value[case] for case, factor in factors.items()):
+            if any(f * (case in others or value.get(case, 0)) for case, f in factors.items()):
                 continue
             zero = [keys.get(case, wind_keys) for case, f in factors.items() if f]
             why = f", loads.{' and loads.'.join(dict.fromkeys(zero))} is 0" if zero else ""
@@ -116,9 +126,12 @@ def _check_loading(combinations: Combinations, loads: Loads, source: str) -> Non
             )
 
 
-def check_crosscheck(crosscheck: Crosscheck, combinations: Combinations, source: str) -> None:
-    """Check that the compared combinations exist and that each code has two rising meshes."""
-    for key in ("strength", "deflection"):
+def check_crosscheck(
+    crosscheck: Crosscheck, combinations: Combinations | None, source: str
+) -> None:
+    """Check that the compared combinations exist, where these are known yet, and that each code has
+    two rising meshes."""
+    for key in ("strength", "deflection") if combinations else ():
         names, known = getattr(crosscheck, key), list(getattr(combinations, key))
         wrong = [name for name in names if name not in known]
         if wrong and names != (GOVERNING,):

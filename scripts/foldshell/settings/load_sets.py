@@ -7,14 +7,15 @@ from pathlib import Path
 
 from foldshell.files.errors import InputError
 from foldshell.settings.combination_rules import Action, Combination, generate_combinations
-from foldshell.settings.consistency import check_crosscheck
+from foldshell.settings.consistency import check_crosscheck, check_loading
 from foldshell.settings.design import Design
 from foldshell.settings.field import Factors
 from foldshell.settings.load_rows import NAMED_ACTIONS, LoadRow, place_rows
 from foldshell.settings.load_table import PAPER, LoadSets, read_load_sets
-from foldshell.settings.loads import Combinations, Loads
+from foldshell.settings.loads import LOAD_CASES, Combinations, Loads
 from foldshell.settings.nearest import hint_nearest
 from foldshell.settings.study import LOAD_TABLE, Settings
+from foldshell.settings.zones import read_zone
 
 PAPER_ACTIONS = tuple(Action(case, kind, kind == "wind") for case, kind in NAMED_ACTIONS.items())
 
@@ -40,7 +41,15 @@ def list_cases(sets: LoadSets) -> tuple[str, ...]:
 
 def place_set(sets: LoadSets, design: Design) -> tuple[LoadRow, ...]:
     """Return the loads of a design with a set of its own; raises `ValueError` in some words."""
-    return place_rows(sets[design.loads], design.zigzag, design.strip)
+    rows = sets[design.loads]
+    if design.on_grid:
+        return place_rows(rows, design.zigzag, design.strip)
+    for row in rows:
+        if read_zone(row.zone).kind in ("zigzag", "strip"):
+            raise ValueError(
+                f"case {row.case}: zone: {row.zone!r}: a sheet that is no grid has no polylines"
+            )
+    return rows
 
 
 def list_actions(rows: Iterable[LoadRow]) -> tuple[Action, ...]:
@@ -100,7 +109,13 @@ def _turn_round(given: Factors, both: list[str]) -> Factors:
         for number, signs in enumerate(product((1, -1), repeat=len(turned))):
             sign = dict(zip(turned, signs, strict=True))
             suffix = "" if number == 0 else "n" if len(turned) == 1 else f"n{number}"
-            found[name + suffix] = {k: v * sign.get(k, 1) for k, v in factors.items()}
+            own = name + suffix
+            if number and own.casefold() in {other.casefold() for other in given}:
+                raise ValueError(
+                    f"{name} turned round would be {own}, which stands there: another name for one "
+                    "of them is allowed"
+                )
+            found[own] = {k: v * sign.get(k, 1) for k, v in factors.items()}
     return found
 
 
@@ -110,18 +125,23 @@ def check_loads(designs: Iterable[Design], settings: Settings, table: str, sourc
     Raises `InputError` for a set that is unknown, panels or polylines that the sheet has not, and
     combinations that name a case which the set has not, or load nothing.
     """
+    known: set[str] = set()
     for design in designs:
-        where = f"{table}: design {design.name!r}"
         if design.loads != PAPER:
-            _check_set_of(design, settings, where)
-        try:
-            found = combinations_of(settings, design)
-        except ValueError as error:
-            raise InputError(f"{source}: combinations.rule: {error}") from None
-        if design.loads != PAPER:
-            _check_cases(design, found, settings, source)
-        if found is not settings.combinations:
-            check_crosscheck(settings.crosscheck, found, f"{source}: design {design.name!r}")
+            _check_set_of(design, settings, f"{table}: design {design.name!r}")
+        if design.loads not in known:
+            known.add(design.loads)
+            _check_combinations_of(design, settings, source)
+
+
+def _check_combinations_of(design: Design, settings: Settings, source: str) -> None:
+    try:
+        found = combinations_of(settings, design)
+    except ValueError as error:
+        raise InputError(f"{source}: combinations: set {design.loads!r}: {error}") from None
+    _check_cases(design, found, settings, source)
+    if found is not settings.combinations:
+        check_crosscheck(settings.crosscheck, found, f"{source}: design {design.name!r}")
 
 
 def _check_set_of(design: Design, settings: Settings, where: str) -> None:
@@ -140,7 +160,11 @@ def _check_set_of(design: Design, settings: Settings, where: str) -> None:
 
 
 def _check_cases(design: Design, found: Combinations, settings: Settings, source: str) -> None:
-    cases = list_cases({design.loads: settings.load_sets[design.loads]})
+    if design.loads == PAPER:
+        cases = LOAD_CASES
+        check_loading(found, settings.loads, source)
+    else:
+        cases = list_cases({design.loads: settings.load_sets[design.loads]})
     for group in ("strength", "deflection"):
         for name, factors in getattr(found, group).items():
             place = f"{source}: combinations.{group}.{name}"

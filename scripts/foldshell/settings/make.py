@@ -9,7 +9,7 @@ from foldshell.settings.check import Reader
 from foldshell.settings.config_file import read_config
 from foldshell.settings.consistency import check_combinations, check_crosscheck, check_sizing
 from foldshell.settings.load_sets import find_load_sets, list_cases
-from foldshell.settings.loads import UPLIFT, Combinations
+from foldshell.settings.loads import LOAD_CASES, UPLIFT, Combinations
 from foldshell.settings.material import age_material
 from foldshell.settings.study import LOAD_TABLE, Settings
 from foldshell.settings.supports import SupportFinder
@@ -32,10 +32,12 @@ def make_settings(
     reader = Reader(source, notes=[] if notes is None else notes, cases=list_cases(sets))
     settings = replace(reader.read_group(Settings, config), load_sets=sets)
     combinations = _add_uplift(settings, source) if settings.loads.uplift else settings.combinations
-    check_combinations(combinations, settings.loads, source)
+    others = set(list_cases(sets)) - set(LOAD_CASES)
+    check_combinations(combinations, settings.loads, source, others)
     check_sizing(settings.sizing, source)
     SupportFinder(settings.supports).find(settings.defaults.support, f"{source}: defaults.support")
-    check_crosscheck(settings.crosscheck, combinations, source)
+    listed = combinations if combinations.rule == "listed" else None
+    check_crosscheck(settings.crosscheck, listed, source)
     material = age_material(settings.material, settings.analysis.creep_coefficient)
     return replace(settings, material=material, combinations=combinations)
 

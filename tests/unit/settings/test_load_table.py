@@ -184,13 +184,25 @@ def test_a_design_with_the_papers_loads_is_what_it_was(tmp_path):
         ([OWN], None, {}, "strength.S1: SDL: the set 's' of design 'a' has no such case"),
         ([OWN], None, {"combinations": {"strength": {"S1": {"SW": 0.0}}}}, "loads nothing"),
         ([OWN], None, {"combinations": {"strength": {"S1": {"SN": 1.0}}}}, "S1.SN: unknown key"),
+        (
+            [OWN, row(**SNOW)],
+            "design\na\n",
+            {"combinations": {"strength": {"S1": {"SNOW": 1.0}}}},
+            "S1: combination S1 loads nothing",
+        ),
+        (
+            [OWN, row(**SNOW)],
+            "design\na\n",
+            {"combinations": {"strength": {"S1": {"SNOW": 1.0, "SW": 1.0}}}},
+            "S1: SNOW: the set .paper. of design .a. has no such case",
+        ),
         ([OWN, row(**SNOW, zone="zigzag 3-15")], None, LISTED, "polylines 0 to 14"),
         ([OWN, row(**SNOW, zone="strip 0-99")], None, LISTED, "polylines 0 to 15"),
         ([OWN, row(**SNOW, zone="panels 3, 210")], None, LISTED, "panel 210: .* panels 0 to 209"),
         ([OWN, row(**SNOW)], None, LISTED | {"crosscheck": {"strength": "S3"}}, "'S3'"),
         ([OWN, row(**(SNOW | {"case": "A"}))], None, {"combinations": {"rule": "listd"}}, "listed"),
     ],
-)
+)  # fmt: skip
 def test_a_bad_study_is_refused_in_one_sentence(tmp_path, rows, designs, config, named):
     with pytest.raises(InputError, match=named) as caught:
         study(tmp_path, rows, designs or "design\tloads\na\ts\n", **config)
@@ -236,3 +248,18 @@ def test_directions_zones_and_variations():
     assert place_rows(rows, 4, 6)[0].zone == "panels 2-3, 7-8, 12-13"
     assert note_idle_loads(make_settings({}), [Design(name="a")], "c") == []
     assert place_set({"s": tuple(rows)}, Design(name="a", loads="s", zigzag=4, strip=6))
+
+
+def test_a_turned_name_that_stands_already_is_refused(tmp_path):
+    given = {"strength": {"S1": {"SNOW": 1.4}, "s1n": {"SW": 1.0}}, "deflection": {"D1": {"SW": 1}}}
+    rows = [OWN, row(**(SNOW | {"sign": "both"}))]
+    with pytest.raises(InputError, match="S1 turned round would be S1n, which stands there"):
+        study(tmp_path, rows, combinations=given)
+
+
+def test_names_of_generated_combinations_may_be_compared(tmp_path):
+    config = {"combinations": {"rule": "en1990"}, "crosscheck": {"strength": "S2"}}
+    settings, (one,), _ = study(tmp_path, [OWN, row(**SNOW)], **config)
+    assert list(combinations_of(settings, one).strength) == ["S1", "S2"]
+    with pytest.raises(InputError, match=r"crosscheck.strength: 'S9'"):
+        study(tmp_path, [OWN, row(**SNOW)], **config | {"crosscheck": {"strength": "S9"}})
