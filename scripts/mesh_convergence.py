@@ -12,6 +12,7 @@ from foldshell.records.files import write_record
 from foldshell.records.sheet_arrays import FoldedArrays
 from foldshell.results.governing import choose_combinations
 from foldshell.results.mesh_convergence import make_record, study_mesh
+from foldshell.results.mode_start import pick_modes
 from foldshell.settings.analysed import LOADED
 from foldshell.settings.crosscheck import Crosscheck
 from foldshell.settings.stage import Plain, read_stage
@@ -33,17 +34,15 @@ def main(
 ) -> None:
     """Write mesh_convergence.json and crosscheck/primary.json; the reason for a mechanism."""
     given, report = read_stage(settings, *LOADED, Crosscheck), read_analysis(report_path)
+    final = read_typed_arrays(final_path, AnalysisArrays)
     chosen = choose_combinations(given.crosscheck, given.combinations, report, given.loads)
+    every, names = given.combinations.all, list(dict.fromkeys(sum(map(list, chosen.values()), [])))
     study = study_mesh(
-        read_checked_arrays(folded_path, FoldedArrays),
-        from_plain(support),
-        read_typed_arrays(final_path, AnalysisArrays).thickness,
-        subdivisions,
-        given.material,
-        make_load_cases(given.loads, given.material.unit_weight),
-        {name: given.combinations.all[name] for names in chosen.values() for name in names},
-        make_edge_beam(*edge_beam),
-    )
+        read_checked_arrays(folded_path, FoldedArrays), from_plain(support), final.thickness,
+        subdivisions, given.material, make_load_cases(given.loads, given.material.unit_weight),
+        {name: every[name] for name in names}, make_edge_beam(*edge_beam),
+        pick_modes(final, list(every), names),
+    )  # fmt: skip
     write_record(study_path, make_record(study))
     write_record(primary_path, study)
 

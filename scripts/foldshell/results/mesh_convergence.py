@@ -15,6 +15,7 @@ from foldshell.records.mesh_convergence import (
     ReferenceMesh,
 )
 from foldshell.records.plain import to_plain
+from foldshell.results.mode_start import begin_with
 from foldshell.settings.field import Factors
 from foldshell.settings.material import Material
 from foldshell.settings.support_row import Holding
@@ -83,6 +84,7 @@ def study_mesh(
     cases: Sequence[SurfaceLoad],
     combinations: Factors,
     edge_beam: EdgeBeam | None = None,
+    modes: np.ndarray | None = None,
 ) -> MeshStudy:
     """Return each quantity on the mesh in use and on the reference mesh, by combination.
 
@@ -96,6 +98,7 @@ def study_mesh(
     panel_thickness : (P,) m
     subdivisions : of the mesh in use
     edge_beam : its panels count among the others
+    modes : (free, c) buckling modes of the combinations on the mesh in use, where they are known
     """
     state = (folded, support, edge_beam, panel_thickness, material, cases, combinations)
     in_use = {"subdivisions": subdivisions}
@@ -103,7 +106,11 @@ def study_mesh(
     finest = max(reference.subdivisions or EQUIVALENT, 2 * subdivisions)
     study = MeshStudy(subdivisions=(subdivisions, finest), reference=reference, combinations={})
     try:
-        meshes = [_analyse(mesh, *state) for mesh in (in_use, in_use | to_plain(reference))]
+        meshes = []
+        start = None if modes is None else (None, modes)
+        for mesh in (in_use, in_use | to_plain(reference)):
+            values, start = _analyse(mesh, start, *state)
+            meshes.append(values)
     except MechanismError as error:
         return replace(study, reason=str(error))
     found = {name: _pair(meshes[0][name], meshes[1][name]) for name in combinations}
@@ -214,12 +221,20 @@ def _relative(value: float, limit: float) -> float:
     return abs(value - limit) / abs(limit) if limit else 0.0
 
 
-def _analyse(mesh, folded, support, edge_beam, panel_thickness, material, cases, combinations):
-    """Analyse one mesh; return its quantities by combination."""
+def _analyse(
+    mesh, start, folded, support, edge_beam, panel_thickness, material, cases, combinations
+):
+    """Analyse one mesh; return its quantities by combination, and (model, modes) for the next.
+
+    `start` is (model, modes) of the mesh before, or (None, modes) of this one: what a search with
+    random vectors has found.
+    """
     arrays = mesh_folded_sheet(dict(folded), support, **mesh, edge_beam=edge_beam)
     model = build_supported_model(mesh_from_arrays(arrays), arrays, material.poissons_ratio)
     thickness = model.to_elements(panel_thickness)
-    result = analyse_shell(model, thickness, material, cases, combinations)
+    result = analyse_shell(
+        model, thickness, material, cases, combinations, None, *begin_with(start, model)
+    )
     if result.state == "mechanism":
         raise MechanismError(result.reason)
     first = replace(result, displacement=result.first_order, second_order=None)
@@ -230,7 +245,7 @@ def _analyse(mesh, folded, support, edge_beam, panel_thickness, material, cases,
     if result.state == "ok":
         for name, second in _measure(model, result, thickness, material, arrays).items():
             values[name] = replace(values[name], second_order=second)
-    return values
+    return values, result.buckling and (model, result.buckling.modes)
 
 
 def _measure(model, result, thickness, material, arrays) -> dict[str, _OnMesh]:

@@ -47,6 +47,9 @@ the square of the tolerance: 6e-4 leaves less than 1e-6 also where modes are clo
 USUAL = Effort()
 """Of an analysis whose factors are compared with those of another mesh or code."""
 
+KNOWN = replace(USUAL, random_vectors=0, followed=1, pairs=1)
+"""Of a state whose modes a full search has found already."""
+
 START = Effort(far_tolerance=0.3, second_order_tolerance=1e-4)
 """Inside a loop where the modes of the analysis before cannot be relied on."""
 
