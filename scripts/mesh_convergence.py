@@ -36,7 +36,8 @@ def main(
     given, report = read_stage(settings, *LOADED, Crosscheck), read_analysis(report_path)
     final = read_typed_arrays(final_path, AnalysisArrays)
     chosen = choose_combinations(given.crosscheck, given.combinations, report, given.loads)
-    every, names = given.combinations.all, list(dict.fromkeys(sum(map(list, chosen.values()), [])))
+    every = given.combinations.all
+    names = list(dict.fromkeys(name for group in chosen.values() for name in group))
     study = study_mesh(
         read_checked_arrays(folded_path, FoldedArrays), from_plain(support), final.thickness,
         subdivisions, given.material, make_load_cases(given.loads, given.material.unit_weight),

@@ -6,8 +6,8 @@ import pytest
 from foldshell.shell.analysis import build_model
 from foldshell.shell.assembly import assemble_stiffness
 from foldshell.shell.mesh import build_mesh
-from foldshell.shell.stiffness import build_operators
 from foldshell.shell.nodal_loads import nodal_forces
+from foldshell.shell.stiffness import build_operators
 from foldshell.shell.transfer import has_same_elements, raise_order, transfer_modes
 
 POINTS = np.array([[0, 0, 0], [2, 0.3, 0.1], [2.2, 1.5, 0.8], [0.1, 1.2, -0.4], [1.1, 2.6, 0.2]])
