@@ -6,14 +6,17 @@ from typing import Any
 import numpy as np
 
 from foldshell.files.errors import InputError
-from foldshell.pattern.cut import CutSheet, cut_sheet, join_polygons, select_polygons
+from foldshell.pattern.cut import CutSheet, cut_sheet, select_polygons
 from foldshell.pattern.outline import Outline
-from foldshell.pattern.panel_graph import Ragged, join_groups, make_ragged
+from foldshell.pattern.overlap import measure_overlap
+from foldshell.pattern.panel_graph import Ragged, join_groups, join_polygons, make_ragged
 from foldshell.pattern.panel_mesh import PanelMesh
 from foldshell.pattern.slivers import ShellCut, make_shell_cut
 
 CRUMB = 0.01
 """Parts of less than this share of the area, joined to nothing, are left out."""
+COVERED = 0.98
+"""Share of the outline's area from which it is not said how much of it the sheet covers."""
 SMALL = 0.03
 """Pieces of less than this share of their panel take the thickness of a neighbour."""
 
@@ -58,6 +61,9 @@ def cut_panels(
     ends = mesh.vertices[mesh.edges]
     ell = float(np.linalg.norm(ends[:, 1] - ends[:, 0], axis=1).mean())
     cut, notes = _drop_crumbs(cut_sheet(mesh, facets, facet_panel, outline))
+    covered = _measure_cover(cut.plan, outline)
+    if covered < COVERED:
+        notes = (*notes, f"outline: the sheet covers {100 * covered:.3g} % of its area")
     mesh = replace(mesh, notes=(*mesh.notes, *outline.notes, *notes))
     shell = make_shell_cut(cut, ell)
     piece = _join_pieces(cut)
@@ -66,19 +72,10 @@ def cut_panels(
     exact = _make_exact(mesh, cut, panel, letters)
     return CutPanels(
         exact, panel, *_make_shell(mesh, cut, shell, panel, letters),
-        _overlap(cut.folded, list(cut.polygons), cut.plan),
-        _overlap(shell.vertices, list(shell.facets), cut.plan),
-        _measure_cover(cut.plan, outline),
+        measure_overlap(cut.folded, cut.polygons, cut.plan),
+        measure_overlap(shell.vertices, shell.facets, cut.plan),
+        covered,
     )  # fmt: skip
-
-
-def _overlap(vertices: np.ndarray, rings: list[np.ndarray], plan: Any) -> float:
-    """Return intersection over union of polygons (k,) in plan with what the outline leaves."""
-    import shapely
-
-    shapes = [shapely.make_valid(shapely.Polygon(vertices[ring, :2])) for ring in rings]
-    union = shapely.union_all(shapes)
-    return float(union.intersection(plan).area / union.union(plan).area)
 
 
 def _measure_cover(plan: Any, outline: Outline) -> float:

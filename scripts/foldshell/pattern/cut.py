@@ -22,6 +22,8 @@ MERGED = 1e-6
 """Cut points nearer than this (m) are one vertex."""
 PLANAR = 1e-9
 """Warp of a panel, over its diagonal, up to which it is cut as one plane."""
+MUCH_LARGER = 20
+"""An outline so many times as large as the sheet is taken for one in another unit."""
 UPRIGHT = 1e-4
 """Area in plan over true area below which a patch is too steep to be cut in plan."""
 
@@ -109,15 +111,23 @@ def _refuse_upright(mesh: PanelMesh, corners: np.ndarray, panel: int) -> None:
 
 
 def _refuse_apart(region: Any, sheet: Any, outline: Outline) -> None:
-    if region.intersection(sheet).area <= 1e-9 * sheet.area:
-        x, y, right, top = sheet.bounds
-        low, high = region.bounds[:2], region.bounds[2:]
-        big = max(np.subtract(high, low)) / max(right - x, top - y)
+    """Refuse an outline or an opening that meets no panel, or of another unit."""
+    import shapely
+
+    x, y, right, top = sheet.bounds
+    where = f"which stands from ({x:.3f}, {y:.3f}) to ({right:.3f}, {top:.3f}) m"
+    for k, hole in enumerate(outline.openings, 1):
+        if not shapely.Polygon(hole).intersects(sheet):
+            raise InputError(f"openings: opening {k} meets no panel of the sheet, {where}")
+    low, high = region.bounds[:2], region.bounds[2:]
+    big = max(np.subtract(high, low)) / max(right - x, top - y)
+    apart = region.intersection(sheet).area <= 1e-9 * sheet.area
+    if apart or big > MUCH_LARGER:
+        words = "meets no panel of the sheet" if apart else f"{big:.0f} times as large as the sheet"
         hint = ", it looks like millimetres, metres are due" if 300 < big < 3000 else ""
         raise InputError(
-            f"outline: from ({low[0]:g}, {low[1]:g}) to ({high[0]:g}, {high[1]:g}) m: meets no "
-            f"panel of the sheet, which stands from ({x:.3f}, {y:.3f}) to ({right:.3f}, {top:.3f})"
-            f" m{hint}"
+            f"outline: from ({low[0]:g}, {low[1]:g}) to ({high[0]:g}, {high[1]:g}) m: {words}, "
+            f"{where}{hint}"
         )
 
 
@@ -265,29 +275,3 @@ def select_polygons(cut: CutSheet, chosen: np.ndarray) -> CutSheet:
     polygons = Ragged(starts, number.ravel())
     owners = cut.parent[chosen], cut.patch[chosen]
     return CutSheet(cut.folded[used], flat, polygons, *owners, cut.area_before, cut.plan)
-
-
-def join_polygons(polygons: Ragged, chosen: np.ndarray) -> list[list[int]]:
-    """Return the border loops of some polygons (k,) of a cut sheet, as vertex numbers."""
-    following: dict[int, list[int]] = {}
-    sides = set()
-    for k in chosen.tolist():
-        ring = polygons[k].tolist()
-        sides |= set(zip(ring, [*ring[1:], ring[0]], strict=True))
-    for start, end in sorted(sides):
-        if (end, start) not in sides:
-            following.setdefault(start, []).append(end)
-    loops = []
-    while following:
-        at = start = min(following)
-        loop = []
-        while at in following:
-            loop.append(at)
-            ends = following[at]
-            at = ends.pop()
-            if not ends:
-                del following[loop[-1]]
-            if at == start:
-                break
-        loops.append(loop)
-    return loops

@@ -89,7 +89,7 @@ def _clean(loop: np.ndarray, place: str, notes: list[str]) -> np.ndarray:
     if not shape.is_valid:
         from shapely.validation import explain_validity
 
-        words = explain_validity(shape).replace("Self-intersection", "crosses itself at")
+        words = explain_validity(shape).replace("Self-intersection", "crosses itself at ")
         words = words.replace("Ring ", "").replace("[", "(").replace("]", ") m")
         raise InputError(f"{place}: {words}: a simple polygon is allowed")
     return loop

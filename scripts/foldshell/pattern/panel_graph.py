@@ -186,3 +186,29 @@ def measure_area(points: np.ndarray) -> float:
     """
     x, y = points.T
     return float((x * np.roll(y, -1) - np.roll(x, -1) * y).sum() / 2)
+
+
+def join_polygons(polygons: Ragged, chosen: np.ndarray) -> list[list[int]]:
+    """Return the border loops of some polygons (k,) of a cut sheet, as vertex numbers."""
+    following: dict[int, list[int]] = {}
+    sides = set()
+    for k in chosen.tolist():
+        ring = polygons[k].tolist()
+        sides |= set(zip(ring, [*ring[1:], ring[0]], strict=True))
+    for start, end in sorted(sides):
+        if (end, start) not in sides:
+            following.setdefault(start, []).append(end)
+    loops = []
+    while following:
+        at = start = min(following)
+        loop = []
+        while at in following:
+            loop.append(at)
+            ends = following[at]
+            at = ends.pop()
+            if not ends:
+                del following[loop[-1]]
+            if at == start:
+                break
+        loops.append(loop)
+    return loops

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from foldshell.files.errors import InputError
 from foldshell.files.meshes.triangles import cut_polygon
 from foldshell.pattern.cut import CutSheet
 from foldshell.pattern.facet_angles import (
@@ -17,9 +18,13 @@ from foldshell.pattern.facet_angles import (
     measure_angles,
     refuse_bad_facets,
 )
+from foldshell.pattern.overlap import measure_overlap
 
-SHORT = 0.1
-"""Sides shorter than this, of the mean side of the whole sheet's panels, collapse."""
+SHORT = (0.1, 0.07, 0.05, 0.03, 0.02)
+"""Sides shorter than this, of the mean side of the whole sheet's panels, collapse: the first that
+follows the outline well enough."""
+FOLLOWED = 0.995
+"""Overlap with the outline, intersection over union in plan, that is well enough."""
 SHORTER = (0.1, 0.15, 0.2, 0.3)
 """The same where facets are left outside `ANGLES`, one after the other, about those facets."""
 COSINE = np.cos(np.radians(15.0))
@@ -57,8 +62,24 @@ def make_shell_cut(cut: CutSheet, ell: float) -> ShellCut:
     InputError
         that names the place of a facet that cannot be brought inside `ANGLES`.
     """
+    best, least = None, 0.0
+    for short in SHORT:
+        found = _try_shell_cut(cut, ell, short)
+        if find_bad_facets(found.vertices, found.facets).any():
+            best = best or found
+            continue
+        share = measure_overlap(found.vertices, found.facets, cut.plan)
+        if share > least:
+            best, least = found, share
+        if share >= FOLLOWED:
+            break
+    refuse_bad_facets(best.vertices, best.facets)
+    return best
+
+
+def _try_shell_cut(cut: CutSheet, ell: float, short: float) -> ShellCut:
     rings = Rings([ring.tolist() for ring in cut.polygons], cut)
-    rings.collapse(SHORT * ell, rings.every, rings.patches)
+    rings.collapse(short * ell, set(range(len(rings.rings))), rings.patches)
     for share in SHORTER:
         for planes in (rings.patches, rings.panels, None):
             bad = rings.find_bad()
@@ -67,7 +88,6 @@ def make_shell_cut(cut: CutSheet, ell: float) -> ShellCut:
         rings.flatten(rings.find_bad(), share * ell)
         rings.refine(share * ell)
     facets, polygon = rings.cut_facets()
-    refuse_bad_facets(rings.vertices, facets)
     return ShellCut(rings.vertices, facets, np.array(rings.origin)[polygon], tuple(rings.added))
 
 
@@ -85,17 +105,17 @@ class Rings:
         self.origin = list(range(len(rings)))
         self.added: list[tuple[int, int, float]] = []
 
-    @property
-    def every(self) -> set[int]:
-        """Numbers of all polygons."""
-        return set(range(len(self.rings)))
-
     def cut_facets(self) -> tuple[np.ndarray, np.ndarray]:
         """Return facets (F, 3) of what is left, as vertices, and the polygon (F,) of each.
 
         They are numbers.
         """
         found = [(k, _cut(ring, self.vertices)) for k, ring in enumerate(self.rings) if ring]
+        if not found:
+            raise InputError(
+                "outline: it leaves less of the sheet than can be analysed, a tenth of a panel's "
+                "side and less"
+            )
         facets = np.concatenate([facets for _, facets in found])
         return facets, np.concatenate([np.full(len(facets), k) for k, facets in found])
 

@@ -25,8 +25,9 @@ from foldshell.settings.where import (
 )
 from foldshell.shell.border import Border, panel_sides
 
-ON_SIDE = 1e-6
-"""Distance to a side of the outline, over the outline's size, up to which a vertex lies on it."""
+ON_SIDE = 0.3
+"""Distance of a border edge to a side of the outline, over the mean side of panels, up to which it
+stands for it: short sides of a cut are collapsed for analysis."""
 
 
 @dataclass(frozen=True)
@@ -135,17 +136,27 @@ def _side(sheet: HeldSheet, term: Term) -> np.ndarray:
 
 
 def _outline_side(sheet: HeldSheet, number: int) -> np.ndarray:
-    """Return the border edges whose ends lie on a side of the outline, counted from 1."""
+    """Return the border edges of a side of the outline, counted from 1: those that lie nearer to
+    it than to any other."""
     if sheet.outline is None:
         raise ValueError(f"side={number}: the design has no outline: {', '.join(SIDES)} are there")
     if number > len(sheet.outline):
         raise ValueError(f"side={number}: the outline has {len(sheet.outline)} sides")
-    a, b = sheet.outline[number - 1], sheet.outline[number % len(sheet.outline)]
-    plan, along = sheet.vertices[:, :2] - a, b - a
-    share = np.clip(plan @ along / (along @ along), 0, 1)
-    away = np.linalg.norm(plan - share[:, None] * along, axis=1)
-    on = away <= ON_SIDE * np.ptp(sheet.outline, axis=0).max()
-    return sheet.border.edges[on[sheet.border.edges].all(axis=1)]
+    edges = sheet.border.edges
+    corners = zip(sheet.outline, np.roll(sheet.outline, -1, axis=0), strict=True)
+    ends = sheet.vertices[edges][:, :, :2]
+    points = np.stack([ends[:, 0], ends.mean(axis=1), ends[:, 1]], axis=1)
+    away = np.array([_measure_distance(points, a, b) for a, b in corners])
+    lengths = np.diff(sheet.vertices[sheet.sides], axis=1)[:, 0]
+    near = away[number - 1].max(axis=1) <= ON_SIDE * np.linalg.norm(lengths, axis=1).mean()
+    return edges[near & (away[:, :, 1].argmin(axis=0) == number - 1)]
+
+
+def _measure_distance(points: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    """Return the distance (N, k) m of points (N, k, 2) in plan from a side a-b."""
+    along = b - a
+    share = np.clip((points - a) @ along / (along @ along), 0, 1)
+    return np.linalg.norm(points - a - share[..., None] * along, axis=2)
 
 
 def _edges(sheet: HeldSheet, term: Term) -> np.ndarray:
