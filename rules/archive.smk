@@ -18,7 +18,7 @@ rule archive_study:
         results=results_folder,
         project=str(HOME),
         config=parse_group(type(SETTINGS), config),
-        tables=[SETTINGS.designs],
+        tables=[SETTINGS.designs, *filter(os.path.isfile, [SETTINGS.load_table, SETTINGS.supports])],
         settings=stage_parameters(SETTINGS, "archive"),
     message:
         "archive of {params.tag}"

@@ -66,6 +66,11 @@ def prepare_rerun(bag: Path, folder: Path) -> Rerun:
     if (data / GIVEN).is_dir():
         shutil.copytree(data / GIVEN, folder / CODE, dirs_exist_ok=True)
     settings = yaml.safe_load((data / CONFIG / "config.yaml").read_text(encoding="utf-8"))
+    for key in ("load_table", "supports"):
+        place = Path(str(settings.get(key, "")))
+        if not place.is_absolute() and (data / CONFIG / place.name).is_file():
+            (folder / CODE / place).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copyfile(data / CONFIG / place.name, folder / CODE / place)
     table = Path(str(settings.get("designs", "designs.tsv"))).name
     return Rerun(data, folder / CODE, f"../{CONFIG}/{table}")
 

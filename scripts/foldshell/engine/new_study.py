@@ -38,6 +38,15 @@ README = """\
 """
 
 
+COPIED = (
+    "config/config.yaml",
+    "config/README.md",
+    "config/loads.tsv",
+    "profiles/default/config.yaml",
+)
+"""Files of the workflow that a new study begins with."""
+
+
 def make_study_folder(folder: str | Path) -> Path:
     """Write a table, a config, a README and a Snakefile that includes the workflow's own.
 
@@ -47,7 +56,7 @@ def make_study_folder(folder: str | Path) -> Path:
     if folder.exists() and (not folder.is_dir() or any(folder.iterdir())):
         raise InputError(f"{folder}: is there already: a new or an empty folder is allowed")
     source = workflow_folder()
-    for name in ("config/config.yaml", "config/README.md", "profiles/default/config.yaml"):
+    for name in COPIED:
         (folder / name).parent.mkdir(parents=True, exist_ok=True)
         shutil.copyfile(source / name, folder / name)
     config = folder / "config/config.yaml"
