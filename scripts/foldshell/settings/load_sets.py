@@ -20,17 +20,17 @@ from foldshell.settings.zones import read_zone
 PAPER_ACTIONS = tuple(Action(case, kind, kind == "wind") for case, kind in NAMED_ACTIONS.items())
 
 
-def find_load_sets(path: object) -> LoadSets:
+def find_load_sets(path: object, source: str = "configuration") -> LoadSets:
     """Return the sets of a table of loads; none where the table of the default name is missing.
 
-    Raises `InputError` that names the setting where there is no such file.
+    Raises `InputError` that names `source` and the setting where there is no such file.
     """
     if not isinstance(path, str):
         return {}
     if not Path(path).is_file():
         if path == LOAD_TABLE:
             return {}
-        raise InputError(f"configuration: load_table: {path!r}: no such file")
+        raise InputError(f"{source}: load_table: {path!r}: no such file")
     return read_load_sets(path)
 
 

@@ -28,7 +28,7 @@ def make_settings(
     `config` is what a file holds or what Snakemake merged from files and `--config`; `source`
     stands in messages, `notes` gathers what is to be said once (old words). Raises `InputError`.
     """
-    sets = find_load_sets(config.get("load_table", LOAD_TABLE))
+    sets = find_load_sets(config.get("load_table", LOAD_TABLE), source)
     reader = Reader(source, notes=[] if notes is None else notes, cases=list_cases(sets))
     settings = replace(reader.read_group(Settings, config), load_sets=sets)
     combinations = _add_uplift(settings, source) if settings.loads.uplift else settings.combinations
