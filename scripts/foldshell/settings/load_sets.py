@@ -8,7 +8,7 @@ from pathlib import Path
 from foldshell.files.errors import InputError
 from foldshell.settings.combination_rules import Action, Combination, generate_combinations
 from foldshell.settings.consistency import check_crosscheck, check_loading
-from foldshell.settings.design import Design
+from foldshell.settings.design import SURFACES, Design
 from foldshell.settings.field import Factors
 from foldshell.settings.load_rows import NAMED_ACTIONS, LoadRow, place_rows
 from foldshell.settings.load_table import PAPER, LoadSets, read_load_sets
@@ -42,6 +42,7 @@ def list_cases(sets: LoadSets) -> tuple[str, ...]:
 def place_set(sets: LoadSets, design: Design) -> tuple[LoadRow, ...]:
     """Return the loads of a design with a set of its own; raises `ValueError` in some words."""
     rows = sets[design.loads]
+    _check_reach(rows, design)
     if design.on_grid:
         return place_rows(rows, design.zigzag, design.strip)
     for row in rows:
@@ -50,6 +51,24 @@ def place_set(sets: LoadSets, design: Design) -> tuple[LoadRow, ...]:
                 f"case {row.case}: zone: {row.zone!r}: a sheet that is no grid has no polylines"
             )
     return rows
+
+
+def _check_reach(rows: Iterable[LoadRow], design: Design) -> None:
+    """Refuse zones that lie beyond any sheet on a target whose plan is known; others are told when
+    the sheet is there."""
+    if design.surface not in SURFACES or not design.on_grid:
+        return
+    for row in rows:
+        zone = read_zone(row.zone)
+        points = zone.region.corners if zone.region else zone.points
+        for axis, side in enumerate(design.sides):
+            places = [point[axis] for point in points]
+            if places and (min(places) > side or max(places) < -side):
+                x, y = design.sides
+                raise ValueError(
+                    f"case {row.case}: zone: {row.zone!r}: it meets no panel of a plan of {x:g} m "
+                    f"by {y:g} m, whose middle is the origin"
+                )
 
 
 def list_actions(rows: Iterable[LoadRow]) -> tuple[Action, ...]:

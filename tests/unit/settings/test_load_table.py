@@ -197,6 +197,8 @@ def test_a_design_with_the_papers_loads_is_what_it_was(tmp_path):
             "S1: SNOW: the set .paper. of design .a. has no such case",
         ),
         ([OWN, row(**SNOW, zone="zigzag 3-15")], None, LISTED, "polylines 0 to 14"),
+        ([OWN, row(**SNOW, zone="box 30 0 40 9")], None, LISTED,
+         "zone: 'box 30 0 40 9': it meets no panel of a plan of 28 m by 28 m"),
         ([OWN, row(**SNOW, zone="strip 0-99")], None, LISTED, "polylines 0 to 15"),
         ([OWN, row(**SNOW, zone="panels 3, 210")], None, LISTED, "panel 210: .* panels 0 to 209"),
         ([OWN, row(**SNOW)], None, LISTED | {"crosscheck": {"strength": "S3"}}, "'S3'"),
