@@ -173,7 +173,7 @@ def test_the_arrays_make_a_mesh_with_supports_by_side(mode):
     mesh = mesh_folded_sheet(arrays, rows, 1)
     south = mesh["vertices"][mesh["support_pairs"][mesh["support_border"] == 0]]
     assert np.abs(south[..., 1] + 6).max() < 0.4, "short sides are collapsed, 0.2 of a panel's here"
-    assert np.abs(np.diff(south[..., 0], axis=1)).sum() == pytest.approx(12, rel=0.03)
+    assert np.abs(np.diff(south[..., 0], axis=1)).sum() == pytest.approx(12, rel=0.05)
     assert not len(mesh["support_warnings"])
     pinned = mesh_folded_sheet(arrays, "all", 1)
     places = pinned["vertices"][np.unique(pinned["support_pairs"]), :2]
