@@ -30,6 +30,9 @@ rule check:
         "../scripts/check.py"
 
 
+include: "reinforcement.smk"
+
+
 rule design_workbook:
     input:
         final=rules.size.output.final,

@@ -45,7 +45,7 @@ rule page:
         mesh_convergence=rules.mesh_convergence.output.study,
         comparison=rules.compare.output.comparison,
         engineering=rules.check.output.record,
-        pictures=[rules.draw.output[name] for name in PICTURES],
+        pictures=[rules.draw.output[name] for name in PICTURES] + rules.reinforcement.output,
         library=code_inputs("page"),
         assets=assets(),
     output:

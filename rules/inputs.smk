@@ -32,7 +32,7 @@ def design_files(name):
     """Return what is made of a design, but its manifest."""
     files = ["design.xlsx", "design.vtu", "crosscheck/comparison.json", "page.html"]
     files += ["sheet.html", "checks/engineering.json"]
-    files += [f"figures/{picture}.png" for picture in PICTURES]
+    files += [f"figures/{picture}.png" for picture in [*PICTURES, "reinforcement"]]
     unfolded = [f"pattern/developable_pattern.{kind}" for kind in ("fold", "dxf", "svg")]
     files += unfolded * BY_NAME[name].has_developable
     return [f"{RESULTS}/{name}/{file}" for file in files]

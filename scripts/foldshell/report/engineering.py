@@ -16,6 +16,8 @@ from foldshell.report.section import Box, Folded, Section, judge_met
 
 KINDS = {"passes": "good", "fails": "bad", "not_applicable": ""}
 COMPONENTS = ("nx", "ny", "nxy", "mx", "my", "mxy", "vx", "vy")
+BARS = ("class [mm]", "panels", "layer", "direction", "bar [mm]", "spacing [mm]",
+        "steel [cm²/m]", "mass [kg]", "used")  # fmt: skip
 HEADER = ("check", "value", "limit", "of its limit", "met", "where")
 
 
@@ -57,6 +59,7 @@ def make_engineering(record: EngineeringRecord | None) -> list[Section]:
     sections = [
         Section("Engineering verdict", box, table=make_table(HEADER, rows),
                 note=describe_measures(record)),
+        *make_reinforcement(record),
         Section("Engineering: combinations", folded=Folded(
             "factors of load cases and buckling factors", tabulate_combinations(record))),
         Section("Engineering: reactions", folded=Folded(
@@ -66,6 +69,39 @@ def make_engineering(record: EngineeringRecord | None) -> list[Section]:
             tabulate_forces(record))),
     ]  # fmt: skip
     return [one for one in sections if one.folded is None or one.folded.table.rows]
+
+
+def make_reinforcement(record: EngineeringRecord) -> list[Section]:
+    """Return what a shell takes of steel, what governs its panels, and the schedule of bars."""
+    total = record.reinforcement
+    if total is None:
+        return []
+    share = {name: f"{one:.0%}" for name, one in total.governing_share.items() if one >= 0.005}
+    rows = [
+        ("reinforcement", f"{total.steel_kg_m2:.3g} kg/m², {total.steel_kg_m3:.3g} kg/m³"),
+        ("the same without least steel", f"{total.steel_needed_kg_m2:.3g} kg/m²"),
+        ("in all", f"{total.steel_kg:.0f} kg in {total.concrete_m3:.4g} m³ of concrete"),
+        ("by the schedule of bars", f"{total.steel_bars_kg:.0f} kg"),
+        ("two layers of bars fit in", f"{total.two_layers_share:.0%} of panels"),
+        ("most used by", ", ".join(f"{name} {one}" for name, one in share.items())),
+        ("greenhouse gases", f"{total.co2_kg / 1e3:.3g} t CO2e ({total.co2_low_kg / 1e3:.3g} to "
+                             f"{total.co2_high_kg / 1e3:.3g})"),
+    ]  # fmt: skip
+    if total.cost is not None:
+        words = f"{total.cost:.4g} ({total.cost_low:.4g} to {total.cost_high:.4g})"
+        rows.append(("cost by the prices of the settings", words))
+    bars = [
+        (round(1e3 * one.thickness_m, 1), one.panels, one.layer, one.direction, one.diameter_mm,
+         one.spacing_mm, one.area_cm2_m, one.mass_kg, describe_share(one.use))
+        for one in total.bars
+    ]  # fmt: skip
+    note = "EN 1992-1-1; shear beside folds is open: it does not settle with the mesh."
+    table = make_table(("reinforced concrete", "of the final state"), rows)
+    return [
+        Section("Engineering: reinforcement", table=table, note=note),
+        Section("Engineering: bars", folded=Folded(
+            "bars by class of thickness", make_table(BARS, bars))),
+    ]  # fmt: skip
 
 
 def describe_measures(record: EngineeringRecord) -> str:

@@ -21,6 +21,7 @@ PICTURE_WIDTH, STILL_WIDTH = 530, 800
 STILLS = ("utilization", "thickness")
 """What that picture shows: the first of them that there is."""
 SHOWN = {
+    "reinforcement": "reinforcement",
     "loads": "load cases",
     "principal_stress_lines": "principal stress lines",
     "isolines": "utilization isolines",

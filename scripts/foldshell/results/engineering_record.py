@@ -165,15 +165,23 @@ def make_record(
         loads=sum_cases(state),
         reactions=edges,
         analyses=state.analyses,
-        panels=describe_panels(state, judged, arrays) | _list_steel(reinforced),
+        panels=describe_panels(state, judged, arrays) | _list_steel(reinforced, judged),
         reinforcement=reinforced and reinforced.record,
     )  # fmt: skip
     return record, arrays
 
 
-def _list_steel(reinforced: Reinforced | None) -> dict[str, tuple[Any, ...]]:
-    columns = {} if reinforced is None else reinforced.columns
-    return {name: tuple(values.tolist()) for name, values in columns.items()}
+def _list_steel(reinforced: Reinforced | None, judged: Judged) -> dict[str, tuple[Any, ...]]:
+    """Return the columns of reinforcement; BU is the factor that is due over the one found."""
+    if reinforced is None or not reinforced.columns:
+        return {}
+    columns = {name: tuple(values.tolist()) for name, values in reinforced.columns.items()}
+    held = judged.checks["stability"]
+    share = held.limit / held.value if held.value else None
+    first = list(columns).index("SC")
+    items = list(columns.items())
+    items.insert(first, ("BU", (share,) * len(items[0][1])))
+    return dict(items)
 
 
 def _list_factors(state: EngineeringState) -> dict[str, float | None]:

@@ -160,6 +160,14 @@ def measure_creases(model: ConcreteModel) -> float:
     return float(np.linalg.norm(mesh.nodes[folds[:, 0]] - mesh.nodes[folds[:, 1]], axis=1).sum())
 
 
+def find_bar_directions(model: ConcreteModel) -> tuple[np.ndarray, np.ndarray]:
+    """Return unit vectors along the bars of x and of y in the first facet of each panel, (P, 3)."""
+    first = np.unique(model.mesh.panel, return_index=True)[1][: model.panels]
+    angle, frame = model.local.angle[first, None], model.operators.geometry.frame[first]
+    cos, sin = np.cos(angle), np.sin(angle)
+    return cos * frame[:, 0] + sin * frame[:, 1], cos * frame[:, 1] - sin * frame[:, 0]
+
+
 def _list_columns(
     model: ConcreteModel, use: PanelUse, cracks: Envelope, shares: np.ndarray, names: list[str]
 ) -> dict[str, np.ndarray]:
@@ -171,7 +179,7 @@ def _list_columns(
     most = model.asked.ratio_max * steel.thickness
     found |= {key: area[:, k] / most for k, key in enumerate(keys)}
     found["SC"] = shear.use
-    found |= {"CWB_mm": 1e3 * cracks.value[:, 0], "CWT_mm": 1e3 * cracks.value[:, 1]}
+    found |= {"CWB": 1e3 * cracks.value[:, 0], "CWT": 1e3 * cracks.value[:, 1]}
     found["shear_kn_m"] = shear.size
     found["layers"] = np.where(steel.two_layers, 2, 1)
     found |= {f"use_{name}": shares[:, k] for k, name in enumerate(CHECKS)}
@@ -182,4 +190,6 @@ def _list_columns(
     found["steel_place"] = np.array([describe_row(model.edge[one]) for one in row])
     combination = np.take_along_axis(steel.envelope.combination, most_steel, axis=1)[:, 0]
     found["steel_combination"] = np.array(names)[combination]
+    for axis, vectors in zip("xy", find_bar_directions(model), strict=True):
+        found |= {f"bar_{axis}_{name}": vectors[:, k] for k, name in enumerate("xyz")}
     return found

@@ -26,6 +26,8 @@ from foldshell.workbook.styles import (
 from foldshell.workbook.tables import Column, write_table
 
 VERDICTS = {"passes": "good", "fails": "bad", "not_applicable": "plain"}
+TEXTS = ("reinforced_check", "steel_place", "steel_combination")
+"""Columns of words beside those of reinforcement."""
 CHECK_COLUMNS = (
     Column("check", "", "wrap", 58.0),
     Column("value", "see unit", "general", 12.0),
@@ -122,8 +124,15 @@ def list_panel_columns(record: EngineeringRecord) -> list[tuple[Column, tuple]]:
 def _judge_column(name: str) -> tuple[str, str]:
     if name == "panel":
         return "-", "integer"
-    if name in ("governing_combination", "cracked"):
+    if name in ("governing_combination", "cracked", *TEXTS):
         return "", "text"
+    if name == "layers":
+        return "-", "integer"
+    if name in ("CWB", "CWT"):
+        return "mm", "decimal"
+    for ending, unit in (("_cm2_m", "cm2/m"), ("_mm", "mm"), ("_kn_m", "kN/m")):
+        if name.endswith(ending):
+            return unit, "decimal"
     if name.endswith("_m2"):
         return "m2", "decimal"
     if name.endswith("_m"):
