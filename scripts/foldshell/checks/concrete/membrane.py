@@ -4,6 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
+ROUND_OFF = 1e-10
+"""Tension over compression up to which a membrane counts as compressed in all directions."""
+
 
 @dataclass(frozen=True)
 class MembraneDesign:
@@ -44,8 +47,9 @@ def design_membrane(force: np.ndarray) -> MembraneDesign:
     first = np.where(steep, 0.0, shear + low)
     second = np.where(steep, ratio * shear, shear) + high
     strut = np.where(steep, -low * (1 + ratio**2), 2 * shear)
-    whole = (high <= 0) & (low * high >= xy**2)
-    principal = np.hypot((high - low) / 2, xy) - (low + high) / 2
+    middle, radius = (low + high) / 2, np.hypot((high - low) / 2, xy)
+    principal = radius - middle
+    whole = middle + radius <= ROUND_OFF * principal
     first, second = (np.where(whole, 0.0, one).clip(min=0.0) for one in (first, second))
     pair = np.where(exchanged, second, first), np.where(exchanged, first, second)
     return MembraneDesign(np.stack(pair, axis=-1), np.where(whole, principal, strut), ~whole)
