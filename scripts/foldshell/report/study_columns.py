@@ -31,7 +31,9 @@ class Column:
     chosen: bool = False
 
 
-GOVERNING = Column("governing_share", "governing check [% of its limit]", True, chosen=True)
+GOVERNING = Column(
+    "governing_share", "governs by the paper's criteria [% of its limit]", True, chosen=True
+)
 
 
 def choose_columns(rows: Sequence[SummaryRow]) -> list[Column]:

@@ -24,7 +24,7 @@ def make_summary_sheet(files: StudyFiles) -> Json:
         cells = make_row(entry.row, columns, governing)
         words = governing.name if governing else "–"
         table.append((entry.name, *(cells[column.key] for column in columns), words))
-    header = ["design", *(column.words for column in columns), "governing check"]
+    header = ["design", *(column.words for column in columns), "governs by the paper's criteria"]
     return {
         "title": f"Folded shells: study {files.study}",
         "kinds": f"{len(rows)} {'design' if len(rows) == 1 else 'designs'}: {describe_kinds(rows)}",

@@ -160,7 +160,7 @@ def _check_displacements(
         ),
     }  # fmt: skip
     if state.case.material.kind == CONCRETE and state.cracked is not None:
-        share = f"{state.cracked_panels.sum()} cracked panels at {checks.cracked_stiffness:g} E"
+        share = f"cracked panels at {checks.cracked_stiffness:g} of that"
         words = f"vertical displacement, long-term, {share}"
         found["displacement_long_term_cracked"] = _hold_sustained(
             state, state.cracked, words, limit, down
