@@ -41,7 +41,7 @@ def main(
     except ValueError as error:
         raise InputError(f"design {design}: mesh: {error}") from None
     if beam:
-        refuse_piercing(arrays, len(folded["facets"]), design)
+        refuse_piercing(arrays, design)
     for name in ("support_reports", "support_warnings"):
         for sentence in arrays.get(name, ()):
             print(f"design {design}: {sentence}", file=sys.stderr)

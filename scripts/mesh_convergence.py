@@ -10,8 +10,9 @@ from foldshell.records.analysis_arrays import AnalysisArrays
 from foldshell.records.arrays import read_checked_arrays, read_typed_arrays
 from foldshell.records.files import write_record
 from foldshell.records.sheet_arrays import FoldedArrays
-from foldshell.results.governing import choose_combinations
-from foldshell.results.mesh_convergence import make_record, study_mesh
+from foldshell.results.governing import list_compared
+from foldshell.results.mesh_convergence import DesignOnMeshes, make_record, study_design
+from foldshell.results.mesh_order import add_third_mesh
 from foldshell.results.mode_start import pick_modes
 from foldshell.settings.analysed import LOADED
 from foldshell.settings.crosscheck import Crosscheck
@@ -30,22 +31,22 @@ def main(
     support: str | Sequence[Plain],
     edge_beam: Sequence[float],
     subdivisions: int,
+    third: bool = False,
     settings: Plain,
 ) -> None:
     """Write mesh_convergence.json and crosscheck/primary.json; the reason for a mechanism."""
     given, report = read_stage(settings, *LOADED, Crosscheck), read_analysis(report_path)
     final = read_typed_arrays(final_path, AnalysisArrays)
-    chosen = choose_combinations(given.crosscheck, given.combinations, report, given.loads)
-    every = given.combinations.all
-    names = list(dict.fromkeys(name for group in chosen.values() for name in group))
-    study = study_mesh(
+    every = given.combinations
+    named = list_compared(given.crosscheck, every, report, given.loads)
+    design = DesignOnMeshes(
         read_checked_arrays(folded_path, FoldedArrays), from_plain(support), final.thickness,
-        subdivisions, given.material, make_load_cases(given.loads, given.material.unit_weight),
-        {name: every[name] for name in names}, make_edge_beam(*edge_beam),
-        pick_modes(final, list(every), names),
+        given.material, make_load_cases(given.loads, given.material.unit_weight),
+        named, make_edge_beam(*edge_beam), pick_modes(final, list(every.all), list(named)),
     )  # fmt: skip
-    write_record(study_path, make_record(study))
-    write_record(primary_path, study)
+    record = make_record(study_design(design, subdivisions))
+    write_record(study_path, add_third_mesh(record, design) if third else record)
+    write_record(primary_path, record.study)
 
 
 if "snakemake" in globals():

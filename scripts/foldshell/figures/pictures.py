@@ -247,6 +247,8 @@ def specify_strain(view: DesignView) -> FigureSpec:
         return specify_nothing(view, "Folding strain", "no strain of the folding")
     values = 100 * state.folded.strain
     facts = f"at most {values.max():.2f} %, mean {values.mean():.2f} % (0: sides keep their length)"
+    parts = (len(state.shell.facets) - 2 * len(state.edge_beam_thickness)) // len(values)
+    values = np.repeat(values, parts)  # facets of a smooth panel are finer in the mesh
     values = np.append(values, np.zeros(2 * len(state.edge_beam_thickness)))
     quantity = "largest change of a facet's sides / flat length [%]"
     scale = make_scale(values, "cividis", zero=True, least=RATIO_RANGE_MIN)

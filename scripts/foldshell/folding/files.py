@@ -44,6 +44,7 @@ def folded_arrays(sheet: Sheet, result: FoldResult) -> FoldedArrays:
         flat=shape.flat,
         planarity=measure_planarity(shape.vertices, grid.quads),
         strain=measure_strain(shape.vertices, shape.flat, grid.facets),
+        surface=shape.surface,
     )
 
 

@@ -21,6 +21,9 @@ from foldshell.settings.fold import Fold, FoldLimits
 # 2e-3 is what rigid domes are to reach; isometric saddles come nearer, or something went wrong.
 SADDLE_RMS = 1.6e-3
 
+SURFACE_STEPS = 6
+"""Steps of a smooth panel between its corners: what meshes of 2, 3 and 6 quads a side take."""
+
 WELL_WITHIN = 0.05  # of the limit on the rms distance
 
 
@@ -72,6 +75,9 @@ def fold_sheet(sheet: Sheet, target: Target, mode: str, settings: Fold) -> FoldR
         shape = replace(shape, residuals={**shape.residuals, "beyond_border_m": reach})
     seconds = time.perf_counter() - start
     placed = replace(shape, vertices=place_vertices(shape.vertices, target))
+    if shape.surface is not None:
+        points = place_vertices(shape.surface.reshape(-1, 3), target)
+        placed = replace(placed, surface=points.reshape(shape.surface.shape))
     return FoldResult(placed, attracted, distances, quality, state, reason, seconds)
 
 
@@ -114,7 +120,25 @@ def lay_smooth(sheet: Sheet, target: Target, settings: Fold) -> Shape:
     y = target.walk_section(1, centred[:, 1])
     vertices = np.column_stack([x, y, target.evaluate_height(x, y)])
     # Lengths are those of the surface itself: a smooth shell is not bent from a plane.
-    return Shape(vertices, vertices, 0, True, "laid on the target surface")
+    points = _fill_panels(sheet, target, centred, vertices)
+    return Shape(vertices, vertices, 0, True, "laid on the target surface", surface=points)
+
+
+def _fill_panels(
+    sheet: Sheet, target: Target, flat: np.ndarray, vertices: np.ndarray
+) -> np.ndarray:
+    """Return points (Y, K, 3) [m] of the target, `SURFACE_STEPS` a panel, vertices among them."""
+    counts = sheet.grid.zigzag_index.max(), sheet.grid.strip_index.max()
+    lines = []
+    for axis, count in zip((1, 0), counts, strict=True):
+        ends = flat[:, axis].min(), flat[:, axis].max()
+        lines.append(target.walk_section(axis, np.linspace(*ends, SURFACE_STEPS * count + 1)))
+    y, x = (values.ravel() for values in np.meshgrid(*lines, indexing="ij"))
+    points = np.column_stack([x, y, target.evaluate_height(x, y)])
+    points = points.reshape(len(lines[0]), len(lines[1]), 3)
+    rows, columns = sheet.grid.zigzag_index, sheet.grid.strip_index
+    points[SURFACE_STEPS * rows, SURFACE_STEPS * columns] = vertices
+    return points
 
 
 def lay_flat(sheet: Sheet, target: Target, settings: Fold) -> Shape:

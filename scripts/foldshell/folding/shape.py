@@ -10,7 +10,8 @@ class Shape:
     """What a mode hands back: vertices and flat state (V, 3) [m], and how it ended.
 
     `flat` is the crease pattern that was folded: given in elastic and isometric mode, found in
-    exact and rigid mode. `residuals` are further measures of the mode, by name.
+    exact and rigid mode. `residuals` are further measures of the mode, by name. `surface` (Y, K, 3)
+    [m] are points between the vertices of a smooth shell, None for sheets of flat facets.
     """
 
     vertices: np.ndarray
@@ -19,3 +20,4 @@ class Shape:
     converged: bool
     reason: str
     residuals: dict[str, float] = field(default_factory=dict)
+    surface: np.ndarray | None = None

@@ -15,6 +15,9 @@ class ReferenceMesh:
 
     order: int | None = entry("its element order", COUNT, left_out=True)
     subdivisions: int | None = entry("its subdivisions", COUNT, left_out=True)
+    panel_parts: int | None = entry(
+        "quads along the side of a smooth panel, on the surface itself", COUNT, left_out=True
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -56,6 +59,23 @@ class MeshStudy:
 
 
 @dataclass(frozen=True, kw_only=True)
+class ThirdMesh:
+    """What a third mesh says of the order at which values settle; on one design of each family."""
+
+    mesh: ReferenceMesh = entry("how it differs from the mesh in use")
+    subdivisions: float = entry("subdivisions that it counts for", "-")
+    values: dict[str, dict[str, float]] = entry("quantities of first order by combination", "-")
+    observed_order: dict[str, dict[str, float | None]] = entry(
+        "order that fits the three meshes; null where the values turn back or jump", "-"
+    )
+    not_asymptotic: bool = entry(
+        "whether some value turns back, or nears its limit slower than the element size, by more "
+        "than 1 %: its mesh error means little"
+    )
+    doubtful: tuple[str, ...] = entry("which, with values from coarse to fine")
+
+
+@dataclass(frozen=True, kw_only=True)
 class MeshConvergenceRecord:
     """The contents of mesh_convergence.json."""
 
@@ -74,3 +94,4 @@ class MeshConvergenceRecord:
         "relative error of each quantity by combination", "-"
     )
     study: MeshStudy = entry("the values that the errors are made of")
+    third: ThirdMesh | None = entry("a third mesh, on one design of each family", left_out=True)

@@ -3,8 +3,9 @@
 Axes: V vertices, P panels, T facets; N nodes, E elements, L nodes of an element, G edges of facets,
 J nodes along one; S supported edges of facets, H supported nodes, B panels of an edge beam; R rows
 of a set of supports, Q vertices that they hold, W warnings of them; of any sheet D panels and one
-more, C corners of all panels, X sides of panels; of a sheet cut by an outline O corners of that,
-I vertices, U pieces and Y one more, Z corners of all pieces, M sides of pieces. In
+more, C corners of all panels, X sides of panels; A and K points of a smooth surface; of a sheet cut
+by an outline O corners of that, I vertices, U pieces and Y one more, Z corners of all pieces, M
+sides of pieces. In
 mesh.npz vertices, facets and panels of an edge beam stand after those of the sheet.
 """
 
@@ -47,6 +48,12 @@ class FoldedArrays:
         "T", "-", "largest strain of a facet's edges, where the flat sheet is known"
     )
     panel_row: np.ndarray | None = array("P", "", "row of each panel, where the pattern has rows")
+    surface: np.ndarray | None = array(
+        "A, K, 3",
+        "m",
+        "points of the target surface itself, of a smooth shell: six steps a panel "
+        "from zig-zag to zig-zag (A) and from strip to strip (K)",
+    )
     panel_place: np.ndarray | None = array("P", "", "place of each panel in its row")
     outline: np.ndarray | None = array("O, 2", "m", "corners of the outline that cut the sheet")
     cut_vertices: np.ndarray | None = array(

@@ -1,6 +1,6 @@
 """Which combinations govern the final state of a design, for mesh error and cross-check."""
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 
 from foldshell.files.errors import InputError
 from foldshell.loads.cases import SETTLEMENT, TEMPERATURE, make_load_cases
@@ -37,6 +37,14 @@ def choose_combinations(
     if deflection == [GOVERNING]:
         deflection = [find_governing_deflection(report, list(combinations.deflection))]
     return {"strength": strength, "deflection": deflection}
+
+
+def list_compared(
+    chosen: Crosscheck, combinations: Combinations, report: AnalysisRecord, loads: Loads
+) -> dict[str, Mapping[str, float]]:
+    """Return the factors of those combinations by name, each once."""
+    groups = choose_combinations(chosen, combinations, report, loads)
+    return {name: combinations.all[name] for names in groups.values() for name in names}
 
 
 def compare_without_strains(combinations: Combinations, loads: Loads) -> Combinations:

@@ -15,11 +15,13 @@ from foldshell.records.mesh_convergence import (
     ReferenceMesh,
 )
 from foldshell.records.plain import to_plain
+from foldshell.results.mean_fold import is_folded
 from foldshell.results.mode_start import begin_with
 from foldshell.settings.field import Factors
 from foldshell.settings.material import Material
 from foldshell.settings.support_row import Holding
 from foldshell.shell.analysis import analyse_shell
+from foldshell.shell.curved_panels import PARTS, is_curved
 from foldshell.shell.edge_beams import EdgeBeam
 from foldshell.shell.held_supports import build_supported_model, sum_supports
 from foldshell.shell.mesh_files import mesh_folded_sheet, mesh_from_arrays
@@ -39,11 +41,9 @@ SMOOTH_REFERENCE = ReferenceMesh(subdivisions=8)
 """The mesh for sheets without folds: a thin dome as high as it is wide has bumps narrower than a
 facet, and one element of order 7 leaves them 5 % too low; 8 and 16 subdivisions agree."""
 
-SHARP = np.radians(20)
-"""Mean angle between neighbouring facets from which a sheet counts as folded."""
-
-FLAT = np.radians(1)
-"""Angle up to which two facets count as one plane."""
+CURVED_REFERENCE = ReferenceMesh(panel_parts=2 * PARTS)
+"""The mesh for smooth shells, whose error is that of flat facets on a curved surface: twice as many
+quads a panel, of the same subdivisions."""
 
 ORDER = 2.0
 """Rate at which the error is taken to fall from the mesh in use to the reference mesh."""
@@ -75,6 +75,43 @@ def extrapolate(coarse: float, fine: float, ratio: float, order: float = ORDER) 
     return fine + (fine - coarse) / (ratio**order - 1)
 
 
+@dataclass(frozen=True)
+class _OnMesh:
+    """Quantities of one combination on one mesh, named as in `CombinationStudy`."""
+
+    displacement_down_max_m: float
+    displacement_max_m: float
+    work_knm: float
+    utilization_p99: float
+    utilization_panel_mean_max: float
+    reaction_sum_kn: tuple[float, ...]
+    support_reactions_kn: dict[str, tuple[float, ...]]
+    load_sum_kn: tuple[float, ...]
+    buckling_factor: float | None = None
+    second_order: "_OnMesh | None" = None
+
+
+@dataclass(frozen=True)
+class DesignOnMeshes:
+    """A final state and its loads, whatever the mesh: arrays of folded.npz, supports, thickness
+    (P,) m, material, load cases, compared combinations, edge beam, and buckling modes (free, c) of
+    these combinations on the mesh in use, where they are known."""
+
+    folded: Mapping[str, np.ndarray]
+    support: Holding
+    panel_thickness: np.ndarray
+    material: Material
+    cases: Sequence[SurfaceLoad]
+    combinations: Factors
+    edge_beam: EdgeBeam | None = None
+    modes: np.ndarray | None = None
+
+    def analyse(self, mesh: Mapping[str, int], start=None):
+        """Return the quantities by combination on a mesh, told by arguments of its making, and
+        model and modes for the next; `start` are those of the mesh before."""
+        return _analyse(self, mesh, start)
+
+
 def study_mesh(
     folded: Mapping[str, np.ndarray],
     support: Holding,
@@ -100,20 +137,28 @@ def study_mesh(
     edge_beam : its panels count among the others
     modes : (free, c) buckling modes of the combinations on the mesh in use, where they are known
     """
-    state = (folded, support, edge_beam, panel_thickness, material, cases, combinations)
-    in_use = {"subdivisions": subdivisions}
+    own = folded, support, panel_thickness, material, cases, combinations, edge_beam, modes
+    return study_design(DesignOnMeshes(*own), subdivisions)
+
+
+def study_design(design: DesignOnMeshes, subdivisions: int) -> MeshStudy:
+    """Return the same of a design."""
+    folded, in_use = design.folded, {"subdivisions": subdivisions}
     reference = choose_reference(folded, subdivisions)
     finest = max(reference.subdivisions or EQUIVALENT, 2 * subdivisions)
+    if is_curved(folded):
+        finest = 2 * subdivisions
     study = MeshStudy(subdivisions=(subdivisions, finest), reference=reference, combinations={})
     try:
         meshes = []
-        start = None if modes is None else (None, modes)
+        start = None if design.modes is None else (None, design.modes)
         for mesh in (in_use, in_use | to_plain(reference)):
-            values, start = _analyse(mesh, start, *state)
+            values, start = design.analyse(mesh, start)
             meshes.append(values)
+            start = None if is_curved(folded) else start  # modes go over on the same facets
     except MechanismError as error:
         return replace(study, reason=str(error))
-    found = {name: _pair(meshes[0][name], meshes[1][name]) for name in combinations}
+    found = {name: _pair(meshes[0][name], meshes[1][name]) for name in design.combinations}
     return replace(study, combinations=found)
 
 
@@ -122,45 +167,11 @@ def choose_reference(folded: Mapping[str, np.ndarray], subdivisions: int) -> Ref
 
     `folded` holds the arrays of folded.npz: vertices (V, 3) m, facets (F, 3).
     """
-    if measure_mean_fold(folded["vertices"], folded["facets"]) >= SHARP:
+    if is_curved(folded):
+        return CURVED_REFERENCE
+    if is_folded(folded):
         return REFERENCE
     return ReferenceMesh(subdivisions=max(SMOOTH_REFERENCE.subdivisions, 2 * subdivisions))
-
-
-def measure_mean_fold(vertices: np.ndarray, facets: np.ndarray) -> float:
-    """Return the mean angle (rad) between neighbouring facets that are not one plane, 0 for none.
-
-    A panel's own two facets and those of a flat sheet do not count.
-
-    vertices (V, 3) m, facets (F, 3).
-    """
-    a, b, c = vertices[facets].swapaxes(0, 1)
-    normal = np.cross(b - a, c - a)
-    normal /= np.linalg.norm(normal, axis=1)[:, None]
-    edges = np.sort(facets[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
-    _, which, count = np.unique(edges, axis=0, return_inverse=True, return_counts=True)
-    order = np.argsort(which.ravel(), kind="stable")
-    inner = order[count[which.ravel()[order]] == 2].reshape(-1, 2) // 3
-    cosine = (normal[inner[:, 0]] * normal[inner[:, 1]]).sum(axis=1)
-    angle = np.arccos(np.clip(cosine, -1, 1))
-    bent = angle[angle > FLAT]
-    return float(bent.mean()) if len(bent) else 0.0
-
-
-@dataclass(frozen=True)
-class _OnMesh:
-    """Quantities of one combination on one mesh, named as in `CombinationStudy`."""
-
-    displacement_down_max_m: float
-    displacement_max_m: float
-    work_knm: float
-    utilization_p99: float
-    utilization_panel_mean_max: float
-    reaction_sum_kn: tuple[float, ...]
-    support_reactions_kn: dict[str, tuple[float, ...]]
-    load_sum_kn: tuple[float, ...]
-    buckling_factor: float | None = None
-    second_order: "_OnMesh | None" = None
 
 
 def _pair(coarse: _OnMesh, fine: _OnMesh) -> CombinationStudy:
@@ -221,20 +232,18 @@ def _relative(value: float, limit: float) -> float:
     return abs(value - limit) / abs(limit) if limit else 0.0
 
 
-def _analyse(
-    mesh, start, folded, support, edge_beam, panel_thickness, material, cases, combinations
-):
+def _analyse(design: DesignOnMeshes, mesh, start):
     """Analyse one mesh; return its quantities by combination, and (model, modes) for the next.
 
     `start` is (model, modes) of the mesh before, or (None, modes) of this one: what a search with
     random vectors has found.
     """
-    arrays = mesh_folded_sheet(dict(folded), support, **mesh, edge_beam=edge_beam)
+    folded, material = dict(design.folded), design.material
+    arrays = mesh_folded_sheet(folded, design.support, **mesh, edge_beam=design.edge_beam)
     model = build_supported_model(mesh_from_arrays(arrays), arrays, material.poissons_ratio)
-    thickness = model.to_elements(panel_thickness)
-    result = analyse_shell(
-        model, thickness, material, cases, combinations, None, *begin_with(start, model)
-    )
+    thickness = model.to_elements(design.panel_thickness)
+    loaded = design.cases, design.combinations, None
+    result = analyse_shell(model, thickness, material, *loaded, *begin_with(start, model))
     if result.state == "mechanism":
         raise MechanismError(result.reason)
     first = replace(result, displacement=result.first_order, second_order=None)

@@ -17,6 +17,7 @@ from foldshell.records.sheet_arrays import MeshArrays
 from foldshell.settings.support_row import Holding
 from foldshell.shell.border import Border
 from foldshell.shell.boundary import join_holds, list_nodes, refuse_rigid_motion
+from foldshell.shell.curved_panels import PARTS, divide_subdivisions, is_curved, refine_panels
 from foldshell.shell.edge_beams import EdgeBeam, facet_edges, free_edges, hang_edge_beam_panels
 from foldshell.shell.mesh import ShellMesh, build_mesh, edge_polyline_nodes
 from foldshell.shell.reference import lagrange_basis, lattice_points
@@ -38,11 +39,13 @@ def mesh_folded_sheet(
     subdivisions: int,
     order: int | None = None,
     edge_beam: EdgeBeam | None = None,
+    panel_parts: int = PARTS,
 ) -> dict[str, np.ndarray]:
     """Return the arrays of `mesh.npz`: the mesh, the sheet it covers, and its supports.
 
-    See `build_mesh` for subdivisions and order. `support` is one of the words for pinned borders,
-    or the rows of a set of supports.
+    See `build_mesh` for subdivisions and order; a panel of a smooth shell is covered by
+    `panel_parts` x `panel_parts` quads on the surface, of half the subdivisions each. `support` is
+    one of the words for pinned borders, or the rows of a set of supports.
 
     Besides the fields of `ShellMesh` these are vertices (V, 3) m, facets (F, 3), facet_panel (F,),
     support_pairs (K, 2) as vertices, support_border (K,) the border of each (`supports.BORDERS`),
@@ -51,6 +54,9 @@ def mesh_folded_sheet(
     the thickness of the last B panels, the edge beam's, which are not sized. Raises `ValueError`
     for supports that hold nothing, or leave the whole free to move.
     """
+    if is_curved(folded):
+        folded = refine_panels(folded, panel_parts)
+        subdivisions = divide_subdivisions(subdivisions)
     vertices, facets = folded["vertices"], folded["facets"]
     rows = None if isinstance(support, str) else resolve_rows(_held_sheet(folded), support)
     pairs = _pin_borders(folded, support) if rows is None else rows.to_arrays()["support_pairs"]

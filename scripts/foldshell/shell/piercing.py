@@ -8,11 +8,12 @@ from foldshell.files.errors import InputError
 from foldshell.folding.intersections import find_piercing
 
 
-def refuse_piercing(arrays: Mapping[str, np.ndarray], sheet: int, design: str) -> None:
+def refuse_piercing(arrays: Mapping[str, np.ndarray], design: str) -> None:
     """Raise `InputError` with the place where a panel of the edge beam pierces the sheet.
 
-    `arrays` are those of mesh.npz, whose first `sheet` facets are the sheet's own.
+    `arrays` are those of mesh.npz, whose last facets, two a panel, are the edge beam's.
     """
+    sheet = len(arrays["facets"]) - 2 * len(arrays["fixed_thickness"])
     place = find_piercing(arrays["vertices"], arrays["facets"], sheet)
     if place is not None:
         raise InputError(
