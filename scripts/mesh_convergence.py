@@ -37,12 +37,11 @@ def main(
     """Write mesh_convergence.json and crosscheck/primary.json; the reason for a mechanism."""
     given, report = read_stage(settings, *LOADED, Crosscheck), read_analysis(report_path)
     final = read_typed_arrays(final_path, AnalysisArrays)
-    every = given.combinations
-    named = list_compared(given.crosscheck, every, report, given.loads)
+    named = list_compared(given.crosscheck, given.combinations, report, given.loads)
     design = DesignOnMeshes(
         read_checked_arrays(folded_path, FoldedArrays), from_plain(support), final.thickness,
-        given.material, make_load_cases(given.loads, given.material.unit_weight),
-        named, make_edge_beam(*edge_beam), pick_modes(final, list(every.all), list(named)),
+        given.material, make_load_cases(given.loads, given.material.unit_weight), named,
+        make_edge_beam(*edge_beam), pick_modes(final, list(given.combinations.all), list(named)),
     )  # fmt: skip
     record = make_record(study_design(design, subdivisions))
     write_record(study_path, add_third_mesh(record, design) if third else record)
