@@ -69,6 +69,9 @@ class EngineeringRecord:
         "buckling factor of each combination; null where nothing is compressed", "-"
     )
     loads: dict[str, Vector] = entry("resultant of each load case", "kN")
+    load_moments: dict[str, Vector] | None = entry(
+        "moment of each load case about the origin", "kNm", default=None
+    )
     reactions: dict[str, dict[str, Vector]] = entry(
         "resultant of the reactions at each supported edge, by combination", "kN"
     )

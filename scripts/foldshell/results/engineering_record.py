@@ -162,7 +162,7 @@ def make_record(
             for name in ("strength", "characteristic", "quasi_permanent")
         }),
         buckling_factor=_list_factors(state),
-        loads=sum_cases(state),
+        **sum_cases(state),
         reactions=edges,
         analyses=state.analyses,
         panels=describe_panels(state, judged, arrays) | _list_steel(reinforced, judged),
@@ -191,11 +191,15 @@ def _list_factors(state: EngineeringState) -> dict[str, float | None]:
     return {name: factor if np.isfinite(factor) else None for name, factor in pairs}
 
 
-def sum_cases(state: EngineeringState) -> dict[str, tuple[float, ...]]:
-    """Return the resultant of each load case over the shell, kN."""
+def sum_cases(state: EngineeringState) -> dict[str, dict[str, tuple[float, ...]]]:
+    """Return `loads`, the resultant of each load case over the shell, kN, and `load_moments` about
+    the origin, kNm."""
     placed, operators = state.case.placed, state.case.model.operators
-    total, _ = sum_loads(operators, placed.at(state.thickness))
-    return {name: tuple(total[:, k].tolist()) for k, name in enumerate(placed.names)}
+    sums = sum_loads(operators, placed.at(state.thickness))
+    return {
+        key: {name: tuple(total[:, k].tolist()) for k, name in enumerate(placed.names)}
+        for key, total in zip(("loads", "load_moments"), sums, strict=True)
+    }
 
 
 def collect_arrays(

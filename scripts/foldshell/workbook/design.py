@@ -82,7 +82,7 @@ def write_design(path: str | Path, report: DesignReport) -> None:
             own = {f"sizing loop, {name}": getattr(report.combinations, name)
                    for name in ("strength", "deflection")}  # fmt: skip
             groups = own | list_groups(engineering)
-            add_combinations(book, styles, groups, engineering.loads)
+            add_combinations(book, styles, groups, engineering.loads, engineering.load_moments)
         add_history_sheets(book, styles, report.history, limit, report.measure)
         _add_loads(book, styles, report)
         add_notes(

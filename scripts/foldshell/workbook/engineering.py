@@ -55,7 +55,7 @@ def write_engineering(
         add_checks(book, styles, record, f"Engineering checks of {title}")
         add_panels(book, styles, record)
         add_reactions(book, styles, record, arrays, vertices=False)
-        add_combinations(book, styles, list_groups(record), record.loads)
+        add_combinations(book, styles, list_groups(record), record.loads, record.load_moments)
 
 
 def add_checks(book: Any, styles: Styles, record: EngineeringRecord, title: str) -> None:
@@ -247,11 +247,13 @@ def add_combinations(
     styles: Styles,
     groups: Mapping[str, Factors],
     loads: Mapping[str, Sequence[float]],
+    moments: Mapping[str, Sequence[float]] | None = None,
 ) -> None:
     """Add the sheet `combinations`: resultants of load cases, then factors by combination and the
-    resultant of each as a formula of both.
+    resultant of each as a formula of both; below them the moments of the cases.
 
-    `groups` are combinations by purpose, `loads` the resultant (3,) kN of each case.
+    `groups` are combinations by purpose, `loads` the resultant (3,) kN of each case, `moments` that
+    about the origin, kNm.
     """
     cases = list(loads)
     columns = [Column("combination", "", "text", 14.0), Column("for", "", "text", 26.0)]
@@ -273,6 +275,12 @@ def add_combinations(
             value = sum(factor * loads[name][k] for name, factor in one.items())
             formula = f"=SUMPRODUCT({own},{case})"
             sheet.write_formula(row, 2 + len(cases) + k, formula, styles["decimal"], value)
+    for k, axis in enumerate("xyz" if moments else ""):
+        row = first + len(rows) + 1 + k
+        sheet.write_string(row, 0, f"M{axis}", styles["text"])
+        sheet.write_string(row, 1, "moment of the case, kNm", styles["text"])
+        for column, case in enumerate(cases, start=2):
+            sheet.write_number(row, column, moments[case][k], styles["decimal"])
 
 
 def list_groups(record: EngineeringRecord) -> dict[str, Factors]:
