@@ -2,6 +2,7 @@
 
 import base64
 import io
+import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
@@ -32,6 +33,8 @@ from foldshell.results.summary import hash_study
 from foldshell.settings.stage import StageSettings
 
 FIGURE_WIDTH = 800
+COUNTED = re.compile(r"\b\d+ (?=cracked panels)")
+"""A number of a design in the name of a check, which is the same check for all."""
 SIZE_MAX = 20_000_000
 """Bytes of the whole report, which is to be sent by mail."""
 
@@ -185,9 +188,10 @@ def list_worst(designs: Sequence[DesignEntry]) -> Table:
     for entry in designs:
         named = [replace(check, name=f"engineering: {check.name}") for check in entry.engineering]
         for check in (*entry.checks, *named):
-            known = found.get(check.name)
+            kind = COUNTED.sub("some ", check.name)
+            known = found.get(kind)
             if check.ratio is not None and (known is None or check.ratio > known[1].ratio):
-                found[check.name] = (entry.name, check)
+                found[kind] = (entry.name, check)
     rows = [
         (check.name, name, check.value, check.limit, describe_share(check.ratio),
          "yes" if check.met else "no", check.where)
