@@ -10,9 +10,12 @@ import numpy as np
 
 from foldshell.exchange.model import ExportModel
 from foldshell.exchange.options import ExportOptions
-from foldshell.files.whole import write_json
+from foldshell.files.whole import read_json, write_json
 from foldshell.pattern.angles import measure_folds
 from foldshell.pattern.fold_format import describe_sheet, read_fold
+from foldshell.pattern.panel_fold_format import is_panel_fold, write_panel_fold
+from foldshell.pattern.panel_graph import Ragged
+from foldshell.pattern.panel_mesh import PanelMesh
 from foldshell.pattern.sheet import Frame, Sheet
 from foldshell.pattern.unfold import describe_true_sheet, fit_onto
 
@@ -21,7 +24,14 @@ PARTS = 9
 
 
 def write_fold_file(model: ExportModel, paths: tuple[Path, ...], options: ExportOptions) -> None:
-    """Write the FOLD file of a design from its crease_pattern.fold."""
+    """Write the FOLD file of a design from its crease_pattern.fold; of a sheet that is no crease
+    grid its panels, and of one that an outline cuts its exact pieces."""
+    thickness = [panel.thickness for panel in model.panels if panel.sized]
+    if model.pieces is not None or is_panel_fold(options.sources["pattern"]):
+        mesh = model.pieces or _take_panels(model)
+        write_panel_fold(paths[0], mesh, f"{model.design}, {model.flat_note}")
+        write_json(paths[0], read_json(paths[0]) | {"foldshell:panel_thickness_m": thickness})
+        return
     given = read_fold(options.sources["pattern"])
     folded = model.vertices[: len(model.flat)]
     parts = np.linspace(0.0, 1.0, PARTS + 1)[:-1]
@@ -31,9 +41,26 @@ def write_fold_file(model: ExportModel, paths: tuple[Path, ...], options: Export
     data = describe_sheet(sheet, f"{model.design}, {model.flat_note}")
     # the folded sheet once, at its place at the end
     data["file_frames"] = [f for f in data["file_frames"] if f["frame_title"] != "rest"]
-    thickness = [panel.thickness for panel in model.panels if panel.sized]
     data["foldshell:panel_thickness_m"] = thickness
     write_json(paths[0], data)
+
+
+def _take_panels(model: ExportModel) -> PanelMesh:
+    """Return the sized panels with their creases, without those of an edge beam."""
+    sized = [panel for panel in model.panels if panel.sized]
+    corners = [panel.corners for panel in sized]
+    used, number = np.unique(np.concatenate(corners), return_inverse=True)
+    inside = [crease for crease in model.creases if np.isin(crease.ends, used).all()]
+    edges = np.searchsorted(used, np.array([crease.ends for crease in inside]))
+    starts = np.cumsum([0, *map(len, corners)])
+    return PanelMesh(
+        Ragged(starts, number.ravel()),
+        edges,
+        np.array([crease.assignment for crease in inside]),
+        np.array([crease.angle for crease in inside]),
+        flat=None if model.flat is None else model.flat[used],
+        folded=model.vertices[used],
+    )
 
 
 def _way_to(given: Sheet, folded: np.ndarray) -> list[Frame]:

@@ -10,6 +10,7 @@ from functools import cached_property
 import numpy as np
 
 from foldshell.loads.cases import SurfaceLoad, surface_loads
+from foldshell.pattern.panel_mesh import PanelMesh
 from foldshell.settings.material import Material
 
 PLANAR = 1e-6
@@ -100,6 +101,7 @@ class ExportModel:
     `flat` (W, 3) m is the flat state of the first W vertices, `flat_facets` of the facets that it
     has; `flat_note` says where it is from. `combinations` are factors of load cases by name,
     `groups` the names in strength and deflection; `compared` those that codes are compared by.
+    `pieces` are those that an outline cuts exactly, with their flat state; panels are as analysed.
     """
 
     design: str
@@ -120,6 +122,7 @@ class ExportModel:
     target: Target
     verdict: str
     facts: Mapping[str, object] = field(default_factory=dict)
+    pieces: PanelMesh | None = None
 
     @cached_property
     def thickness(self) -> np.ndarray:

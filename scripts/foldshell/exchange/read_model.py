@@ -10,6 +10,7 @@ from foldshell.exchange.model import Crease, ExportModel, Panel, Support, Target
 from foldshell.exchange.panels_of_mesh import Edges, classify, find_edges, find_loops, fit_plane
 from foldshell.files.errors import InputError
 from foldshell.files.whole import Json, read_json
+from foldshell.folding.cut_files import read_exact_cut
 from foldshell.loads.cases import SurfaceLoad, make_load_cases
 from foldshell.records.analysis import DECIDES, AnalysisRecord
 from foldshell.records.analysis_arrays import AnalysisArrays, ClassesArrays
@@ -63,6 +64,7 @@ def read_export_model(
         flat_note=_flat_note(design["fold_mode"]),
         target=_make_target(design),
         verdict=report.verdict,
+        pieces=read_exact_cut(folded),
         facts={key: plain[key] for key in _SCALARS if key in plain},
     )
 

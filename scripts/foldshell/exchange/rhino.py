@@ -240,18 +240,31 @@ def _quadric_patch(rhino, surface: Quadric):
 
 
 def _add_flat(scene: _Scene, model: ExportModel) -> None:
-    """Add the flat pattern beside the roof, on the ground."""
+    """Add the flat pattern beside the roof, on the ground; of a cut sheet its exact pieces."""
+    pieces = model.pieces
+    flat = model.flat if pieces is None else pieces.flat
+    if flat is None:
+        return
     low, high = model.vertices.min(axis=0), model.vertices.max(axis=0)
-    place = np.array([high[0] + GAP * _size(model), low[1], low[2]]) - model.flat.min(axis=0)
-    count = len(model.flat)
+    place = np.array([high[0] + GAP * _size(model), low[1], low[2]]) - flat.min(axis=0)
+    lines = _list_flat(model)
+    if pieces is not None:
+        kinds = zip(pieces.edges.tolist(), pieces.assignments.tolist(), strict=True)
+        lines = [(ends, kind, "") for ends, kind in kinds if kind in "MVB"]
+    for ends, kind, name in lines:
+        layer = f"FLAT PATTERN {LAYERS[kind]}"
+        scene.add_line(flat[list(ends)] + place, layer, name, {"state": model.flat_note})
+
+
+def _list_flat(model: ExportModel) -> list[tuple[tuple[int, int], str, str]]:
+    """Return ends, kind and name of the creases that have a flat state."""
+    found = []
     for crease in model.creases:
-        if max(crease.ends) >= count:
-            continue
-        one_sided = sum(model.panels[number].sized for number in crease.panels) < 2
-        kind = "B" if one_sided else crease.assignment
-        ends = model.flat[list(crease.ends)] + place
-        scene.add_line(ends, f"FLAT PATTERN {LAYERS[kind]}", _crease_name(model, crease),
-                       {"state": model.flat_note})  # fmt: skip
+        if model.flat is not None and max(crease.ends) < len(model.flat):
+            one_sided = sum(model.panels[number].sized for number in crease.panels) < 2
+            kind = "B" if one_sided else crease.assignment
+            found.append((crease.ends, kind, _crease_name(model, crease)))
+    return found
 
 
 def _add_views(scene: _Scene, model: ExportModel) -> None:
