@@ -21,7 +21,7 @@ PIECES = PanelMesh(
     np.array(["B", "M", "B", "B", "B", "B"]),
     np.full(6, np.nan),
     flat=FLAT,
-    folded=FLAT + [0, 0, 2.0],
+    folded=FLAT + np.array([0, 0, 2.0]),
     labels={"panel": np.array([0, 0])},
 )
 
