@@ -21,16 +21,20 @@ prepare_environment(os.environ)
 HOME = find_plain_path(str(workflow.current_basedir))
 RULES = f"{HOME}/rules"
 
+# True where another workflow has this one as a module, with a configuration of its own.
+IS_MODULE = Path(str(workflow.basedir)).resolve() != Path(str(HOME)).resolve()
+
 with user_errors():
     check_snakemake()
-    read_config("config/config.yaml")
+    if not IS_MODULE:
+        read_config("config/config.yaml")
 
 
 configfile: "config/config.yaml"
 
 
 with user_errors():
-    SETTINGS, DESIGNS = load_study(config, workflow.configfiles)
+    SETTINGS, DESIGNS = load_study(config, () if IS_MODULE else workflow.configfiles)
     RESULTS = choose_results(SETTINGS)
     check_results(RESULTS, SETTINGS.designs)
 

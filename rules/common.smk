@@ -69,14 +69,15 @@ def of_stage(stage):
 def files_of_design(wildcards):
     """Return the files that a design is made of; Snakemake would take a brace in the name of one
     for a wildcard."""
-    return [name for name in BY_NAME[wildcards.design].files if not set("{}") & set(name)]
+    files = BY_NAME[wildcards.design].files
+    return [local(name) for name in files if not set("{}") & set(name)]
 
 
 def files_content(wildcards):
     """Return a file whose name tells the content of the design's files, as an input beside them:
     the content decides whether a rule runs again, not the date."""
     names = list(BY_NAME[wildcards.design].files)
-    return [write_content_list(names, LIBRARY)] if names else []
+    return [local(write_content_list(names, LIBRARY))] if names else []
 
 
 def panels_of_file(wildcards):

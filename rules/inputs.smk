@@ -7,7 +7,13 @@ from foldshell.records.catalogue import FILES
 
 def results_folder(_wildcards):
     """Return the folder of all results, as a parameter."""
-    return RESULTS
+    return place()
+
+
+def place():
+    """Return the folder of all results as it is found on this machine: below the prefix of a
+    module, or with the local copies of a storage."""
+    return str(rules.pattern.output.fold).partition("/{design}/")[0]
 
 
 def timing(rule, suffix=""):

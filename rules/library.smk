@@ -9,14 +9,15 @@ LISTS = {}  # of library files, by script
 
 
 def code_inputs(script):
-    """Return the list of the library files that a rule's script imports, as an input of it. A job
-    elsewhere takes what its run has found: that takes half of the time to read the rules."""
+    """Return the list of the library files that a rule's script imports, as an input of it: a file
+    of this machine, whatever prefix or storage results have. A job elsewhere takes what its run has
+    found: that takes half of the time to read the rules."""
     if script not in LISTS and is_job() and Path(LISTS_FILE).is_file():
         LISTS.update(read_json(LISTS_FILE))
     if script not in LISTS:
         path = f"{SCRIPTS}/{script}.py"
         LISTS[script] = write_library_list(path, SCRIPTS, LIBRARY)
-    return LISTS[script]
+    return local(LISTS[script])
 
 
 def assets():
@@ -24,4 +25,4 @@ def assets():
     are read, not imported."""
     files = [path for path in Path(PAGES).rglob("*") if path.is_file()]
     data = sorted(path for path in files if path.suffix not in (".py", ".pyc"))
-    return write_content_list(data, LIBRARY)
+    return local(write_content_list(data, LIBRARY))

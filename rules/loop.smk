@@ -67,11 +67,14 @@ REPORTING = "--report" in sys.argv
 jobs one of some hundred. Its graph has all rules, but not the way back from analyse to resize."""
 
 
-def asks_for_another(path):
+def asks_for_another(file):
     """Tell whether an analysis asks for another one. One that cannot be read does: unknown is not
-    ended, and the job that takes the next step says what is wrong with it."""
+    ended, and the job that takes the next step says what is wrong with it. Snakemake gets a file
+    from its storage where its own way to open it finds none."""
+    stored = getattr(file, "is_storage", False)
     try:
-        return json.loads(Path(path).read_text())["verdict"] == "continue"
+        with file.open() if stored else Path(file).open(encoding="utf-8") as stream:
+            return json.load(stream)["verdict"] == "continue"
     except (OSError, ValueError, KeyError, TypeError):
         return True
 
@@ -80,11 +83,11 @@ def existing_analyses(design, first):
     """Return the analysis.json that exist from iteration `first` on, up to the end of the loop."""
     files = []
     for number in range(first, 100):
-        path = f"{RESULTS}/{design}/sizing/{number:02d}/analysis.json"
-        if not Path(path).exists():
+        path = f"{design}/sizing/{number:02d}/analysis.json"
+        if not Path(f"{place()}/{path}").exists():
             break
-        files.append(path)
-        if not asks_for_another(path):
+        files.append(f"{RESULTS}/{path}")
+        if not asks_for_another(f"{place()}/{path}"):
             break
     return files
 
@@ -102,10 +105,11 @@ def iterations(wildcards):
         return existing_analyses(wildcards.design, 0)[-1:]
     files = []
     for number in range(100):
-        path, made = find_analysis(design=wildcards.design, iteration=f"{number:02d}")
+        path = f"{RESULTS}/{wildcards.design}/sizing/{number:02d}/analysis.json"
+        made = find_analysis(design=wildcards.design, iteration=f"{number:02d}")
         if not made:
             return files + (existing_analyses(wildcards.design, number) or [path])
         files.append(path)
-        if not asks_for_another(files[-1]):
+        if not asks_for_another(made):
             break
     return files

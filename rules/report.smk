@@ -9,7 +9,7 @@ report: "../docs/report/workflow.rst"
 rule report_pages:
     input:
         summary=f"{STUDY}/summary.csv",
-        verification=[f"{SCRIPTS}/../tests/verification/README.md"],
+        verification=[local(f"{SCRIPTS}/../tests/verification/README.md")],
         library=code_inputs("report_pages"),
         assets=assets(),
     output:
@@ -69,7 +69,7 @@ rule report:
     input:
         summary=f"{STUDY}/summary.csv",
         tiles=rules.all_designs.output.tiles,
-        verification=f"{SCRIPTS}/../tests/verification/README.md",
+        verification=local(f"{SCRIPTS}/../tests/verification/README.md"),
         claims=judged_claims,
         figures=charts_of_study,
         designs=report_designs,
@@ -102,7 +102,7 @@ rule snakemake_report:
     input:
         report_files,
         library=code_inputs("snakemake_report"),
-        stylesheet=f"{PAGES}/snakemake_report.css",
+        stylesheet=local(f"{PAGES}/snakemake_report.css"),
     output:
         report=f"{STUDY}/snakemake_report.html",
     log:

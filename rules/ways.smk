@@ -23,15 +23,15 @@ def choose_loop():
 
 
 def find_analysis(**wildcards):
-    """Return the analysis.json of an iteration, and whether Snakemake knows that it is made."""
+    """Return the analysis.json of an iteration where Snakemake knows that it is made, else None."""
     try:
-        return checkpoints.analyse.get(**wildcards).output.json, True
-    except IncompleteCheckpointException as missing:
-        return str(missing.targetfile), False
+        return checkpoints.analyse.get(**wildcards).output.json
+    except IncompleteCheckpointException:
+        return None
 
 
 if not is_job():
-    for path in keep_all_edited(RESULTS):
+    for path in keep_all_edited(place()):
         print(f"kept a copy of the edited workbook {path}", file=sys.stderr)
 
 if choose_loop() == "whole":

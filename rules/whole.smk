@@ -15,9 +15,9 @@ def given(values):
 def edited_workbooks(wildcards):
     """Return a list of the workbooks that a person has edited, as an input: its name tells their
     content, so that a loop runs again when one is edited or put back."""
-    folder = Path(f"{RESULTS}/{wildcards.design}/sizing")
+    folder = Path(f"{place()}/{wildcards.design}/sizing")
     edited = [path for path in sorted(folder.glob("[0-9][0-9]/thickness.xlsx")) if is_edited(path)]
-    return write_content_list(edited, LIBRARY)
+    return local(write_content_list(edited, LIBRARY))
 
 
 rule size:
