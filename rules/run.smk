@@ -80,5 +80,6 @@ def read_log(path):
 
 onerror:
     finish_run()
-    for sentence in describe_cluster_ends(read_log(log), read_log):
+    logs = [log] if isinstance(log, str) else log
+    for sentence in describe_cluster_ends("\n".join(map(read_log, logs)), read_log):
         print(sentence, file=sys.stderr)
