@@ -30,11 +30,20 @@ def find_analysis(**wildcards):
         return None
 
 
+CHOICE = choose_loop()
+
+# Jobs elsewhere have the environment that is named here.
+if CHOSEN in os.environ:
+
+    envvars:
+        CHOSEN,
+
+
 if not is_job():
     for path in keep_all_edited(place()):
         print(f"kept a copy of the edited workbook {path}", file=sys.stderr)
 
-if choose_loop() == "whole":
+if CHOICE == "whole":
 
     include: "whole.smk"
 

@@ -6,7 +6,7 @@ from types import ModuleType
 from foldshell.files.errors import InputError
 from foldshell.files.package_data import is_installed
 
-LISTS = ("exports", "archive", "sheets", "explore", "cluster", "bench")
+LISTS = ("exports", "archive", "sheets", "explore", "cluster", "storage", "bench")
 """Optional lists: envs/<list>.in says what is in them, envs/<list>.lock versions and hashes."""
 
 
