@@ -9,7 +9,8 @@ SERVERS = []  # the one, once the first job may start
 def start_server(modules):
     """Start the process whose forks run scripts, where there is one: not beside a cluster."""
     if SETTINGS.jobs.fork and AVAILABLE and runs_here():
-        SERVERS.append(ForkServer(SCRIPTS, modules, os.environ | ONE_THREAD, MEMORY[1]))
+        kept = MEMORY[1], setting_of("resource_settings", "cores") or None
+        SERVERS.append(ForkServer(SCRIPTS, modules, os.environ | ONE_THREAD, *kept))
 
 
 def find_server():

@@ -1,5 +1,6 @@
 """The workflow as a module of another one: its folder, its settings and table, with a prefix."""
 
+import os
 import subprocess
 import sys
 
@@ -37,17 +38,38 @@ def make_other(code, folder, prefix):
     return folder
 
 
-def run_other(folder, *arguments):
+CONDA = """#!/bin/sh
+case "$*" in
+    *info*) echo '{"conda_version": "24.9.0", "platform": "linux-64", "conda_prefix": "/tmp"}' ;;
+    *config*) echo '{"get": {"channel_priority": "strict"}}' ;;
+    *) echo "conda 24.9.0" ;;
+esac
+"""
+"""What a dry run asks of conda: which one it is."""
+
+
+def add_conda(folder):
+    """Put a conda that answers into a folder; return the environment with it on the path."""
+    folder.mkdir()
+    (folder / "conda").write_text(CONDA)
+    (folder / "conda").chmod(0o755)
+    return os.environ | {"PATH": f"{folder}:{os.environ['PATH']}"}
+
+
+def run_other(folder, *arguments, env=None):
     command = [sys.executable, "-m", "snakemake", "--cores", "2", *arguments]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, env=env)
     assert done.returncode == 0, done.stderr[-3000:]
     return done.stdout + done.stderr
 
 
 @pytest.mark.parametrize("prefix", ["", "ours"])
 def test_dry_run_from_another_folder(code, tmp_path, prefix):
-    said = run_other(make_other(code, tmp_path / "other", prefix), "-n", "--sdm", "conda")
+    """With the environments of conda too."""
+    folder = make_other(code, tmp_path / "other", prefix)
+    said = run_other(folder, "-n", "--sdm", "conda", env=add_conda(tmp_path / "bin"))
     assert "shells_analyse" in said and "shells_pattern" in said
+    assert "envs/foldshell.yaml will be created" in said
 
 
 def test_a_design_below_a_prefix_has_the_same_files(code, finished, tmp_path):

@@ -95,6 +95,7 @@ class ForkServer:
     modules : names that the server imports whenever no script is asked for
     environment : of the server and all scripts; this process's own if None
     kept_mb : memory (MB) that forks may hold while they wait; the one that waits longest goes first
+    kept_most : how many may wait; no more can be of use at once than there are cores
     """
 
     def __init__(
@@ -103,8 +104,10 @@ class ForkServer:
         modules: Sequence[str],
         environment: Mapping[str, str] | None = None,
         kept_mb: float | None = None,
+        kept_most: int | None = None,
     ) -> None:
         self._kept_mb = float("inf") if kept_mb is None else kept_mb
+        self._kept_most = float("inf") if kept_most is None else kept_most
         self._lock = threading.Lock()
         self._kept: list[_Kept] = []
         self._requests, other = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
@@ -178,10 +181,14 @@ class ForkServer:
                 return
             with self._lock:
                 self._kept.append(_Kept(pool, affinity, fork, result.rss_mb))
-                while sum(kept.rss_mb for kept in self._kept) > self._kept_mb:
+                while self._kept and self._exceeds():
                     self._kept.pop(0).fork.close()
 
         return Job(fork, end, self._find_signal)
+
+    def _exceeds(self) -> bool:
+        held = sum(kept.rss_mb for kept in self._kept)
+        return held > self._kept_mb or len(self._kept) > self._kept_most
 
     def _find_signal(self, pid: int) -> int:
         """Return the signal that killed a fork, 0 if none or if the server is gone too."""
