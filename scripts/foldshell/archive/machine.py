@@ -5,7 +5,7 @@ import platform
 from importlib.metadata import distributions
 from pathlib import Path
 
-from foldshell.shell.blas_kernels import name_kernels
+from foldshell.files.blas_kernels import name_kernels
 
 
 def describe_machine() -> dict[str, object]:

@@ -6,8 +6,8 @@ from collections.abc import Iterable, MutableMapping
 from importlib.metadata import version
 from pathlib import Path
 
+from foldshell.files.blas_kernels import name_kernels
 from foldshell.files.errors import InputError
-from foldshell.shell.blas_kernels import name_kernels
 
 ONE_THREAD = {"OPENBLAS_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}
 """Jobs run side by side; threads of their own would only wait for each other."""

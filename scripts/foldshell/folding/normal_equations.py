@@ -6,6 +6,8 @@ import numpy as np
 from scipy import sparse
 from scipy.sparse.linalg import splu
 
+from foldshell.files.blas_kernels import choose_kernels
+
 try:
     from cvxopt import cholmod, matrix, spmatrix
 except ImportError:  # the fallback is slower, not less exact
@@ -46,6 +48,7 @@ class NormalEquations:
         return (low * self.unknowns + high).ravel()
 
     def _prepare_cholmod(self) -> None:
+        choose_kernels()
         rows, columns = (matrix(k.astype(np.int64)) for k in (self.row_of, self.column_of))
         # The diagonal makes the pattern factorisable; its values come later.
         values = np.where(self.row_of == self.column_of, 1.0, 1e-300)

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 
-from foldshell.shell.blas_kernels import name_kernels
+from foldshell.files.blas_kernels import name_kernels
 
 PACKAGES = ("snakemake", "numpy", "scipy", "cvxopt", "vtk", "meshio", "XlsxWriter", "openpyxl",
             "pillow", "matplotlib", "Jinja2")  # fmt: skip

@@ -14,6 +14,9 @@ from foldshell.shell.mesh import ShellMesh
 from foldshell.shell.reference import lattice_indices
 from foldshell.shell.stiffness import ShellOperators
 
+CHUNK = 64
+"""Elements handled at once, so that temporary arrays stay in cache."""
+
 HELD = -(1 << 40)
 """Place of a freedom that is held: negative even after any other has been added."""
 
@@ -104,7 +107,10 @@ def assemble_stiffness(
     """
     t = (youngs_modulus * np.asarray(thickness))[:, None]
     packed = operators.bending * (t * thickness[:, None] ** 2)
-    packed[:, : operators.membrane.shape[1]] += operators.membrane * t
+    width = operators.membrane.shape[1]
+    for start in range(0, len(packed), CHUNK):
+        part = slice(start, start + CHUNK)
+        packed[part, :width] += operators.membrane[part] * t[part]
     count = len(pattern.indices)
     values = np.bincount(pattern.put.ravel(), packed.ravel(), count + 1)[:count]
     if pattern.springs is not None:

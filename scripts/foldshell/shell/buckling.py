@@ -6,7 +6,7 @@ enlarged by K^-1 K_g x of every mode x that is not yet accurate: a block Davidso
 1975) whose preconditioner is the factor of K that is at hand anyway.
 """
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -50,7 +50,7 @@ class BucklingResult:
 
 def find_buckling_factors(
     solve: Callable[[np.ndarray], np.ndarray],
-    apply_cases: Callable[[np.ndarray], np.ndarray],
+    apply_cases: Callable[[np.ndarray], Iterable[np.ndarray]],
     factors: np.ndarray,
     size: int,
     start: np.ndarray | None = None,
@@ -63,7 +63,8 @@ def find_buckling_factors(
     Parameters
     ----------
     solve : K^-1 on (size, k)
-    apply_cases : maps (size, k) to K_g of each load case times it, (cases, size, k)
+    apply_cases : maps (size, k) to K_g of each load case times it, (size, k) of one after the
+        other
     factors : (cases, c) combination factors
     start : (size, c) modes of a similar structure to begin with
     effort : how it begins and when it ends; without random vectors only if there is a `start`
@@ -84,7 +85,9 @@ def find_buckling_factors(
 
 
 def _mix_cases(apply_cases) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
-    return lambda vectors, factors: np.einsum("asc,ac->sc", apply_cases(vectors), factors)
+    return lambda vectors, factors: sum(
+        own * share for own, share in zip(apply_cases(vectors), factors, strict=True)
+    )
 
 
 def _find_distinct(space, factors, start, effort: Effort, iterations_max) -> BucklingResult:
@@ -197,8 +200,8 @@ class _Subspace:
             self._room = np.concatenate([self._room, np.empty_like(self._room)], axis=1)
         self._room[0, old:new], self._room[1, old:new] = vectors, forces
         self._count = new
-        applied = self._apply(vectors.T)
-        added = np.matmul(self._room[0, :new], applied)
+        basis = self._room[0, :new]
+        added = np.stack([basis @ applied for applied in self._apply(vectors.T)])
         grown = np.zeros((len(self._projected), new, new))
         grown[:, :old, :old] = self._projected
         grown[:, :, old:] = added

@@ -15,7 +15,7 @@ from functools import lru_cache
 
 import numpy as np
 
-from foldshell.shell.blas_kernels import choose_kernels
+from foldshell.files.blas_kernels import choose_kernels
 
 COMMON_BYTES = 1 << 16
 """More than any release's cholmod_common, which is about 2.7 kB."""
@@ -25,9 +25,14 @@ DEFAULTS = (
     ("7i", 48, (1, 1, 1, 0, 1, 1, 0)),  # supernodal, final_asis ... final_resymbol
     ("i", 144, (3,)),  # print
     ("3i", 168, (0, 0, 0)),  # nmethods, current, selected
+    ("i", 316, (1,)),  # ordering of the first method: a given one
+    ("i", 484, (2,)),  # of the second: minimum degree
+    ("i", 1864, (1,)),  # postorder
 )
-SUPERNODAL_AT, PRINT_AT, NMETHODS_AT = 48, 144, 168
-ALWAYS_SUPERNODAL, SILENT, GIVEN_ORDER_ONLY = 2, 0, 1
+SUPERNODAL_AT, PRINT_AT, NMETHODS_AT, ORDERING_AT, POSTORDER_AT = 48, 144, 168, 316, 1864
+ALWAYS_SUPERNODAL, SILENT, FIRST_METHOD_ONLY, NATURAL, AS_IT_IS = 2, 0, 1, 0, 0
+"""The matrix as it is numbered: CHOLMOD would copy it twice, a third of a factorisation, to permute
+it by the identity. Minimum degree leaves an elimination tree in postorder."""
 
 
 class _Sparse(ctypes.Structure):
@@ -84,7 +89,9 @@ class CholmodLibrary:
         for offset, value in (
             (SUPERNODAL_AT, ALWAYS_SUPERNODAL),
             (PRINT_AT, SILENT),
-            (NMETHODS_AT, GIVEN_ORDER_ONLY),
+            (NMETHODS_AT, FIRST_METHOD_ONLY),
+            (ORDERING_AT, NATURAL),
+            (POSTORDER_AT, AS_IT_IS),
         ):
             struct.pack_into("i", self._common, offset, value)
 
@@ -93,9 +100,8 @@ class CholmodLibrary:
 
         indptr (n + 1,) and indices (nnz,) of compressed columns.
         """
-        order = np.arange(len(indptr) - 1, dtype=np.int64)
         matrix = _lower_triangle(indptr, indices, None)
-        factor = self._analyze_p(ctypes.byref(matrix), order.ctypes.data, None, 0, self._common)
+        factor = self._analyze_p(ctypes.byref(matrix), None, None, 0, self._common)
         return self._handle(factor)
 
     def factorise(self, symbolic, indptr, indices, values) -> "CholmodHandle":

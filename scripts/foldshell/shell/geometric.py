@@ -6,6 +6,7 @@ Slopes are taken along the two directions of the reference triangle, the same fo
 and N is pulled back to them.
 """
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -86,12 +87,16 @@ class GeometricProducts:
 
     def __call__(self, vectors: np.ndarray) -> np.ndarray:
         """Return K_g of each case times vectors (size, k), (cases, size, k)."""
+        return np.stack(list(self.each(vectors)))
+
+    def each(self, vectors: np.ndarray) -> Iterator[np.ndarray]:
+        """Return the same, (size, k) of one case after the other: less memory at a time."""
         mesh, count = self._mesh, vectors.shape[1]
         local = self._gather(vectors).reshape(len(mesh.nodes), 3 * count)[mesh.elements]
-        result = np.zeros((len(self._matrices), *vectors.shape))
-        for own, matrix in zip(result, self._matrices, strict=True):
+        for matrix in self._matrices:
+            own = np.zeros(vectors.shape)
             self._scatter(np.matmul(matrix, local).reshape(-1, 3 * count), own)
-        return result
+            yield own
 
     def mix(self, vectors: np.ndarray, factors: np.ndarray) -> np.ndarray:
         """Return K_g of the combination (cases, k) of each column times it, (size, k).

@@ -82,7 +82,7 @@ class Solution:
         imposed = None if strains is None else strains @ mixing
         forces = self.forces(first_order_cases @ mixing, imposed)
         dofs = self._dofs
-        multiply = GeometricProducts(self.model.operators, forces, dofs)
+        products = GeometricProducts(self.model.operators, forces, dofs)
         # modes are kept in ascending order of freedoms, the factor works in its own
         place = self.model.pattern.ascending
         if start is not None:
@@ -91,7 +91,7 @@ class Solution:
             start = own
         solve, size = self._factor.solve, len(dofs)
         found = find_buckling_factors(
-            solve, multiply, factors, size, start, effort, apply_mixed=multiply.mix
+            solve, products.each, factors, size, start, effort, apply_mixed=products.mix
         )
         return replace(found, modes=found.modes[place])
 

@@ -9,14 +9,14 @@ import pytest
 
 from foldshell.archive import machine
 from foldshell.engine.environment import list_versions
-from foldshell.report.provenance import find_provenance
-from foldshell.shell.blas_kernels import (
+from foldshell.files.blas_kernels import (
     SLOW,
     find_best_kernels,
     is_slow,
     name_kernels,
     read_flags,
 )
+from foldshell.report.provenance import find_provenance
 
 SCRIPTS = Path(__file__).parents[3] / "scripts"
 AVX2, AVX512 = {"avx", "avx2", "fma"}, {"avx512f", "avx512dq", "avx512bw", "avx512vl", "avx512cd"}
@@ -25,7 +25,7 @@ FALL_BACK = """
 import os, sys
 os.environ["OPENBLAS_CORETYPE"] = "Prescott"
 import cvxopt.cholmod
-from foldshell.shell import blas_kernels
+from foldshell.files import blas_kernels
 library = blas_kernels._open_blas()
 before = blas_kernels._read_core(library)
 if sys.argv[1] == "newer processor":

@@ -7,6 +7,7 @@ takes them by name from the environment (OPENBLAS_CORETYPE) when its tables are 
 its functions `gotoblas_dynamic_quit` and `gotoblas_dynamic_init` do anew.
 """
 
+import contextlib
 import ctypes
 import os
 from functools import lru_cache
@@ -49,9 +50,10 @@ def choose_kernels() -> None:
 
 def name_kernels() -> str:
     """Return the name of the kernels in use, as OpenBLAS calls them; empty where not known."""
-    from foldshell.shell.cholmod_library import open_library
-
-    library = _open_blas() if open_library() is not None else None
+    with contextlib.suppress(ImportError):
+        import cvxopt.cholmod  # noqa: F401 - its libraries are found once it is loaded
+    choose_kernels()
+    library = _open_blas()
     return "" if library is None else _read_core(library)
 
 
