@@ -471,25 +471,14 @@ def test_sums_at_nodes_are_those_of_one_element_after_the_other():
 
 
 @pytest.mark.parametrize("subdivisions", [1, 4, 8])
-def test_freedoms_stand_in_a_postorder_of_the_elimination_tree(subdivisions):
-    """CHOLMOD takes them as they are numbered: columns of a supernode must stand side by side. The
-    tree by Liu's algorithm from the pattern; in a postorder each subtree is a run of columns."""
+def test_the_matrix_as_it_is_numbered_gives_what_cvxopt_gives(subdivisions):
+    """cvxopt permutes it and puts the elimination tree in postorder; one or two elements a facet
+    edge. Displacements under a load agree to the condition of K."""
     model = arch_model(subdivisions)
-    pattern = model.pattern
-    parent = np.full(pattern.size, -1)
-    ancestor = np.full(pattern.size, -1)
-    column = np.repeat(np.arange(pattern.size), np.diff(pattern.indptr))
-    order = np.argsort(pattern.indices, kind="stable")
-    for i, k in zip(pattern.indices[order].tolist(), column[order].tolist(), strict=True):
-        while k != -1 and k < i:
-            following, ancestor[k] = ancestor[k], i
-            if following == -1:
-                parent[k] = i
-            k = following
-    size = np.ones(pattern.size, dtype=int)
-    first = np.arange(pattern.size)
-    for k in range(pattern.size):
-        if parent[k] >= 0:
-            size[parent[k]] += size[k]
-            first[parent[k]] = min(first[parent[k]], first[k])
-    assert np.array_equal(np.arange(pattern.size) - first + 1, size)
+    thickness = np.full(len(model.mesh.elements), 0.05)
+    values = assemble_stiffness(model.operators, model.pattern, thickness, 31e6)
+    force = np.random.default_rng(6).standard_normal((model.pattern.size, 3))
+    found, expected = (
+        kind(model.pattern, values).solve(force) for kind in (CholmodFactor, CvxoptFactor)
+    )
+    assert found == pytest.approx(expected, abs=1e-9 * np.abs(expected).max())
