@@ -32,7 +32,8 @@ DEFAULTS = (
 SUPERNODAL_AT, PRINT_AT, NMETHODS_AT, ORDERING_AT, POSTORDER_AT = 48, 144, 168, 316, 1864
 ALWAYS_SUPERNODAL, SILENT, FIRST_METHOD_ONLY, NATURAL, AS_IT_IS = 2, 0, 1, 0, 0
 """The matrix as it is numbered: CHOLMOD would copy it twice, a third of a factorisation, to permute
-it by the identity. Minimum degree leaves the elimination tree nearly in postorder: supernodes are as large."""
+it by the identity. Minimum degree leaves the elimination tree nearly in postorder, so that
+supernodes are as large."""
 
 
 class _Sparse(ctypes.Structure):
