@@ -90,7 +90,10 @@ class GeometricProducts:
         return np.stack(list(self.each(vectors)))
 
     def each(self, vectors: np.ndarray) -> Iterator[np.ndarray]:
-        """Return the same, (size, k) of one case after the other: less memory at a time."""
+        """Return K_g of each case times vectors (size, k), one case after the other: less memory.
+
+        In kN/m times the unit of the vectors.
+        """
         mesh, count = self._mesh, vectors.shape[1]
         local = self._gather(vectors).reshape(len(mesh.nodes), 3 * count)[mesh.elements]
         for matrix in self._matrices:
