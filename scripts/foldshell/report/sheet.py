@@ -71,6 +71,7 @@ def make_sheet(files: SheetFiles, view: DesignView, settings: StageSettings) -> 
         "Material": loads.material,
         "Load cases": _load_cases(loads.cases, files.reactions),
         "Combinations": loads.combinations,
+        "Supports": _supports(files.design, files.reactions),
         "Reactions": _reactions(files.reactions),
         "Cross-check and mesh error": _quality(files),
     }
@@ -161,6 +162,15 @@ def _load_cases(cases: Sequence[Any], reactions: Reactions | None) -> Table:
 def _round_sums(force: np.ndarray, moment: np.ndarray) -> tuple[Any, ...]:
     words = ", ".join(f"{value + 0.0:.0f}" for value in np.round(moment).tolist())
     return *(round(value, 1) + 0.0 for value in force.tolist()), words
+
+
+def _supports(design: Design, reactions: Reactions | None) -> Table:
+    """Return what each row of a set of supports holds, and how; nothing of pinned borders."""
+    header = ("support", "vertices", "length of its edges [m]", "held")
+    if reactions is None or design.support in SUPPORTS:
+        return make_table(header, [])
+    rows = [(edge.name, edge.vertices, edge.length, edge.words) for edge in reactions.edges]
+    return make_table(header, rows)
 
 
 def _reactions(reactions: Reactions | None) -> Table:
