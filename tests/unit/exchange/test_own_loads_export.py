@@ -7,11 +7,14 @@ import openpyxl
 import pytest
 
 from export_cases import CASES, DESIGN, stage_settings, write_export_case
+from foldshell.exchange.calculix import GRAVITY, deck
 from foldshell.exchange.fe_mesh import divide_facets
+from foldshell.exchange.ifc import write_ifc
 from foldshell.exchange.model import SpreadLoad, combined_loads, load_on_facets
 from foldshell.exchange.opensees import script
 from foldshell.exchange.options import ExportOptions
 from foldshell.exchange.read_model import read_export_model
+from foldshell.exchange.rhino import write_3dm
 from foldshell.exchange.saf import list_members, write_saf
 from foldshell.exchange.sap2000 import read_s2k, write_s2k
 from foldshell.loads.cases import make_load_cases
@@ -111,3 +114,34 @@ def test_opensees(model, tmp_path):
     spec.loader.exec_module(module)
     for name, total in sums(model).items():
         assert np.sum(list(module.LOADS[name].values()), axis=0) == pytest.approx(total, abs=1e-9)
+
+
+def test_calculix(model):
+    """Accelerations times mass, and pressures, of the first step: factors times resultants."""
+    steps = deck(model, 1).split("*DLOAD, OP=NEW")[1:]
+    mass = model.material.unit_weight / GRAVITY * model.thickness * model.areas
+    total = np.zeros(3)
+    for line in steps[0].split("*")[0].strip().splitlines():
+        name, kind, *values = [word.strip() for word in line.split(",")]
+        facet = int(name[1:])
+        numbers = [float(value) for value in values]
+        if kind == "GRAV":
+            total += mass[facet] * numbers[0] * np.array(numbers[1:])
+        else:
+            total -= numbers[0] * model.areas[facet] * model.normals[facet]
+    first = next(iter(model.combinations))
+    exact = (combined_loads(model, first) * model.areas[:, None]).sum(axis=0)
+    assert total == pytest.approx(exact, abs=1e-6)
+
+
+def test_ifc_and_rhino_know_the_cases(model, tmp_path):
+    ifcopenshell = pytest.importorskip("ifcopenshell")
+    write_ifc(model, (tmp_path / "a.ifc",), ExportOptions())
+    file = ifcopenshell.open(str(tmp_path / "a.ifc"))
+    cases = {one.Name: one for one in file.by_type("IfcStructuralLoadCase")}
+    assert list(cases) == EXPECTED
+    assert cases["SNOW"].ActionSource == "SNOW_S" and cases["W"].ActionSource == "WIND_W"
+    rhino = pytest.importorskip("rhino3dm")
+    write_3dm(model, (tmp_path / "a.3dm",), ExportOptions())
+    layers = {layer.Name for layer in rhino.File3dm.Read(str(tmp_path / "a.3dm")).Layers}
+    assert {f"LOADS {name}" for name in EXPECTED} <= layers
