@@ -5,7 +5,7 @@ import pytest
 
 import checked_case
 from foldshell.checks.strips import find_strips
-from foldshell.files.whole import read_arrays, read_json
+from foldshell.files.whole import read_arrays, read_json, write_arrays
 from foldshell.records.analysis import write_analysis
 from foldshell.records.analysis_arrays import AnalysisArrays
 from foldshell.records.arrays import write_typed_arrays
@@ -142,4 +142,23 @@ def test_a_rule_that_makes_no_combinations_leaves_the_verdict_open(folder, monke
     monkeypatch.setattr(engineering_record, "engineering_combinations", refuse)
     found, arrays = checked(folder)
     assert found["verdict"] == "not_applicable" and "900 combinations" in found["reason"]
+    assert not arrays and not found["checks"]
+
+
+def test_a_shell_that_buckles_fails_and_one_that_is_a_mechanism_too(folder, tmp_path):
+    """All files are whole; the reason says what happened."""
+    soft, arrays = checked(folder, material={"youngs_modulus": 1e3})
+    assert soft["verdict"] == "fails" and soft["checks"]["stability"]["met"] is False
+    assert "is below 1" in soft["reason"] and "edge_reaction" in arrays
+    final = read_arrays(folder / "sizing/final.npz")
+    home = tmp_path / "thin"
+    (home / "sizing").mkdir(parents=True)
+    for name in ("mesh.npz", "sizing/final.json"):
+        (home / name).write_bytes((folder / name).read_bytes())
+    thin = {"thickness": np.full(PANELS, 1e-9)}
+    names = ("utilization_cell", "displacement", "buckling_modes", "translations")
+    rest = {name: values for name, values in final.items() if name not in names}
+    write_arrays(home / "sizing/final.npz", rest | thin)
+    found, arrays = checked(home)
+    assert found["verdict"] == "fails" and found["reason"].startswith("mechanism: ")
     assert not arrays and not found["checks"]
