@@ -126,9 +126,9 @@ if __name__ == "__main__":
             print(f"{cores} cores: {simulate(study, cores, 0.018):.1f} s")
         names = list(measured)
         many = {f"{i}": measured[names[i % len(names)]] for i in range(1000)}
-        study = make_jobs(many, 8.0, (60.0,), True)
+        study = make_jobs(many, 6.0, (71.0,), True)
         print(
             f"1000 designs: {sum(job.seconds for job in study.values()):.0f} s of jobs on a cluster"
         )
-        print(f"100 cores of a cluster: {simulate(study, 100, 0.08):.1f} s")
+        print(f"100 cores of a cluster: {simulate(study, 100, 0.094):.1f} s")
         print(f"longest chain {find_longest(study):.1f} s")
