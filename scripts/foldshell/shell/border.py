@@ -11,6 +11,10 @@ from foldshell.shell.reference import EDGES
 STRAIGHT = np.cos(np.radians(2))
 """Cosine of the angle in plan up to which two border edges are one straight run."""
 
+THERE, NEAR = 1e-3, 0.2
+"""Shares of the plan's diagonal: a vertex so near to a corner stands there; one so near may stand
+for it."""
+
 
 @dataclass(frozen=True)
 class Border:
@@ -50,18 +54,16 @@ class Border:
     def find_corners(self, points: np.ndarray) -> np.ndarray:
         """Return the border vertex (K,) that stands for each corner (K, 2) m of an outline.
 
-        It is the nearest vertex with one panel; where none is nearer than a fifth of the plan, the
-        nearest of all: a corner of the sheet may lie farther from it than the next vertex.
+        A vertex that stands there is it. Else it is the nearest one with one panel, since a corner
+        of the sheet may lie farther from it than the next vertex; where none is nearer than a fifth
+        of the plan, the nearest of all.
         """
         loop = self.outer
         away = np.linalg.norm(self.vertices[loop, :2] - points[:, None], axis=2)
         single = np.where(self.panels_at[loop] == 1, away, np.inf)
-        near = 0.2 * np.linalg.norm(np.ptp(self.vertices[loop, :2], axis=0))
-        rows = np.arange(len(points))
-        choice = np.where(
-            single[rows, single.argmin(axis=1)] <= near, single.argmin(axis=1), away.argmin(axis=1)
-        )
-        return loop[choice]
+        size = np.linalg.norm(np.ptp(self.vertices[loop, :2], axis=0))
+        there, near = away.min(axis=1) <= THERE * size, single.min(axis=1) <= NEAR * size
+        return loop[np.where(near & ~there, single.argmin(axis=1), away.argmin(axis=1))]
 
     def find_plan_corners(self) -> np.ndarray:
         """Return the numbers (4,) of the vertices at the corners of the plan's box, m.

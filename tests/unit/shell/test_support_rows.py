@@ -139,6 +139,15 @@ def test_corners_prefer_vertices_with_one_panel():
     assert border.find_corners(np.array([[0.0, 0.0]])).tolist() == [0]
 
 
+def test_a_vertex_at_the_corner_is_it_whatever_its_panels():
+    """Corners of a grid cut into triangles from there have two panels, others beside them one."""
+    points, facets, _, _ = grid()
+    panel = np.arange(len(facets))
+    border = Border(points, facets, panel)
+    assert border.panels_at[[0, 19]].tolist() == [2, 2]
+    assert border.find_plan_corners().tolist() == [0, 4, 19, 15]
+
+
 def test_supports_that_leave_the_roof_free_are_refused():
     with pytest.raises(ValueError, match="free to move along"):
         mesh_folded_sheet(folded(), [SupportRow("a", "border", "yz")], 1)
