@@ -12,7 +12,7 @@ from foldshell.records.files import write_record
 from foldshell.records.sheet_arrays import FoldedArrays
 from foldshell.results.governing import list_compared
 from foldshell.results.mesh_convergence import DesignOnMeshes, make_record, study_design
-from foldshell.results.mesh_order import add_third_mesh
+from foldshell.results.mesh_order import add_third_mesh, study_facets
 from foldshell.results.mode_start import pick_modes
 from foldshell.settings.analysed import LOADED
 from foldshell.settings.crosscheck import Crosscheck
@@ -45,7 +45,7 @@ def main(
     )  # fmt: skip
     record = make_record(study_design(design, subdivisions))
     write_record(study_path, add_third_mesh(record, design) if third else record)
-    write_record(primary_path, record.study)
+    write_record(primary_path, study_facets(record, design))
 
 
 if "snakemake" in globals():

@@ -141,10 +141,12 @@ def study_mesh(
     return study_design(DesignOnMeshes(*own), subdivisions)
 
 
-def study_design(design: DesignOnMeshes, subdivisions: int) -> MeshStudy:
-    """Return the same of a design."""
+def study_design(
+    design: DesignOnMeshes, subdivisions: int, reference: ReferenceMesh | None = None
+) -> MeshStudy:
+    """Return the same of a design; the reference mesh is chosen where none is given."""
     folded, in_use = design.folded, {"subdivisions": subdivisions}
-    reference = choose_reference(folded, subdivisions)
+    reference = reference or choose_reference(folded, subdivisions)
     finest = max(reference.subdivisions or EQUIVALENT, 2 * subdivisions)
     if is_curved(folded):
         finest = 2 * subdivisions
@@ -155,7 +157,7 @@ def study_design(design: DesignOnMeshes, subdivisions: int) -> MeshStudy:
         for mesh in (in_use, in_use | to_plain(reference)):
             values, start = design.analyse(mesh, start)
             meshes.append(values)
-            start = None if is_curved(folded) else start  # modes go over on the same facets
+            start = None if reference.panel_parts else start  # modes go over on the same facets
     except MechanismError as error:
         return replace(study, reason=str(error))
     found = {name: _pair(meshes[0][name], meshes[1][name]) for name in design.combinations}

@@ -25,6 +25,7 @@ from foldshell.results.mesh_convergence import (
     QUANTITIES,
     DesignOnMeshes,
     MechanismError,
+    study_design,
 )
 from foldshell.shell.curved_panels import PARTS, is_curved
 
@@ -71,6 +72,15 @@ def add_third_mesh(record: MeshConvergenceRecord, design: DesignOnMeshes) -> Mes
         not_asymptotic=bool(doubtful), doubtful=tuple(doubtful),
     )  # fmt: skip
     return replace(record, third=third)
+
+
+def study_facets(record: MeshConvergenceRecord, design: DesignOnMeshes) -> MeshStudy:
+    """Return primary.json, on whose facets the independent code stands: of a smooth shell those of
+    the mesh in use, whose finer mesh is then one of more subdivisions."""
+    if not is_curved(design.folded):
+        return record.study
+    finer = ReferenceMesh(subdivisions=2 * record.subdivisions)
+    return study_design(design, record.subdivisions, finer)
 
 
 def compare_meshes(
