@@ -1,0 +1,72 @@
+"""A loop's analyses against those of another commit: `make bench`; BENCH_AGAINST names the commit.
+
+Both take turns in one sitting, three times each; what counts is the ratio of the medians. Written
+to results/bench/loop.csv with processor and kernels, and as a line for docs/benchmarks.md.
+"""
+
+import csv
+import json
+import os
+import subprocess
+import sys
+from pathlib import Path
+from statistics import median
+
+import pytest
+from bench_loop_run import KINDS
+
+from foldshell.engine.environment import KEEP_MEMORY, ONE_THREAD, SMALL_PAGES
+from foldshell.files.blas_kernels import name_kernels
+from foldshell.report.provenance import describe_machine
+
+pytestmark = pytest.mark.bench
+ROOT = Path(__file__).parents[2]
+RESULTS = ROOT / "results" / "bench"
+AGAINST = os.environ.get("BENCH_AGAINST", "HEAD~1")
+MEASURED = ("first_s", "iteration_s", "loop_s", "rss_mb", "kb_per_freedom")
+
+
+@pytest.fixture(scope="module")
+def other(tmp_path_factory):
+    """Return a checkout of the commit to compare with."""
+    folder = tmp_path_factory.mktemp("against") / "code"
+    git = ["git", "-C", str(ROOT), "worktree"]
+    subprocess.run([*git, "add", "--detach", str(folder), AGAINST], check=True, capture_output=True)
+    yield folder
+    subprocess.run([*git, "remove", "--force", str(folder)], check=True)
+
+
+def run(root: Path, kind: str) -> dict[str, float]:
+    done = subprocess.run(
+        [sys.executable, str(Path(__file__).with_name("bench_loop_run.py")), str(root), kind],
+        env={**os.environ, **ONE_THREAD, **KEEP_MEMORY, **SMALL_PAGES},
+        capture_output=True, text=True, check=True,
+    )  # fmt: skip
+    return json.loads(done.stdout)
+
+
+@pytest.mark.parametrize("kind", sorted(KINDS))
+def test_a_loop_costs_no_more_than_at_the_commit_before(other, kind):
+    """Half of the time is due against commit 792766a; against any other no more than it took."""
+    pairs = [(run(ROOT, kind), run(other, kind)) for _ in range(3)]
+    row = {"kind": kind, "against": AGAINST, "kernels": name_kernels(), **describe_machine()}
+    for name in ("dofs", "analyses", *MEASURED):
+        row[name] = median(own[name] for own, _ in pairs)
+    for name in MEASURED:
+        row[f"{name}_ratio"] = median(own[name] / before[name] for own, before in pairs)
+    write(row)
+    print({name: round(value, 3) for name, value in row.items() if name.endswith("_ratio")})
+    assert row["iteration_s_ratio"] < 1.1
+    assert row["kb_per_freedom_ratio"] < 1.1
+
+
+def write(row: dict[str, object]) -> None:
+    """Add a row to loop.csv."""
+    RESULTS.mkdir(parents=True, exist_ok=True)
+    path = RESULTS / "loop.csv"
+    new = not path.exists()
+    with path.open("a", newline="", encoding="utf-8") as stream:
+        writer = csv.DictWriter(stream, list(row))
+        if new:
+            writer.writeheader()
+        writer.writerow(row)
