@@ -4,6 +4,7 @@ Constraints are planar panels, the angle sum about inner vertices of any degree,
 vertices on the target; in rigid mode Kawasaki's condition takes the place of the target.
 """
 
+import math
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 
@@ -40,13 +41,22 @@ from foldshell.pattern.unfold import Assembly
 from foldshell.pattern.unfold_panels import overlaps_itself, unfold_net
 from foldshell.settings.fold import ExactWeights, FoldWeights
 
+WIDE = math.radians(27)
+"""Corners stay further than this from 0 and pi at first: a shell needs facets below 155 deg."""
 CLOSURE = 1e-9
 """Gap [m] of the unfolded sheet up to which it is developable."""
 TRIES = {
-    True: ((0.02, 0.1, 1.0), (0.02, 0.1, 30.0)),
-    False: ((0.2, 0.0, 1.0), (0.02, 0.1, 1.0), (0.02, 0.0, 1.0)),
-}
-"""(stretch, fairness, margin) that are tried in turn, for quadrilaterals and for other panels."""
+    True: ((0.02, 0.1, 1.0, WIDE), (0.02, 0.1, 30.0, WIDE), (0.02, 0.1, 1.0, CORNER_MARGIN)),
+    False: (
+        (0.2, 0.0, 1.0, WIDE), (0.02, 0.1, 1.0, WIDE), (0.2, 0.0, 1.0, CORNER_MARGIN),
+        (0.02, 0.0, 1.0, CORNER_MARGIN),
+    ),
+}  # fmt: skip
+"""(stretch, fairness, weight of margins, margin of corners) that are tried in turn, for
+quadrilaterals and for other panels."""
+
+Weights = tuple[ExactWeights, float]
+"""Weights of the terms and the margin of corners [rad]."""
 
 
 @dataclass(frozen=True)
@@ -65,9 +75,9 @@ def solve_net(
     """Try sets of weights from a soft shape (V, 3) m; return the first true one, else the best."""
     quads = bool((np.diff(net.mesh.panels.starts) == 4).all())
     attempts: list[NetAttempt] = []
-    for stretch, fairness, margin in TRIES[quads]:
+    for stretch, fairness, margin, corner in TRIES[quads]:
         chosen = weights.changed(stretch=stretch, fairness=fairness, margin=margin)
-        attempts.append(_attempt(net, start, soft, target, chosen, rigid))
+        attempts.append(_attempt(net, start, soft, target, (chosen, corner), rigid))
         if not attempts[-1].faults:
             break
     best = min(attempts, key=lambda a: (bool(a.faults), a.unfolded is None, a.solution.residual))
@@ -76,7 +86,7 @@ def solve_net(
 
 
 def _attempt(
-    net: FoldNet, start: Start, soft: np.ndarray, target: Target, weights: ExactWeights, rigid: bool
+    net: FoldNet, start: Start, soft: np.ndarray, target: Target, weights: Weights, rigid: bool
 ) -> NetAttempt:
     solution = _tighten(net, start, soft, target, weights, rigid)
     allowed = ACCEPTED + 64 * measure_rounding(target) / net.reference
@@ -89,10 +99,10 @@ def _attempt(
 
 
 def _tighten(
-    net: FoldNet, start: Start, soft: np.ndarray, target: Target, weights: ExactWeights, rigid: bool
+    net: FoldNet, start: Start, soft: np.ndarray, target: Target, weights: Weights, rigid: bool
 ) -> Solution:
     """Constraint weights 1 to 1e4 (1e7 in rigid mode), each from the last, then projection."""
-    gentle = list_soft_terms(net, start, target, weights, rigid)
+    gentle = list_soft_terms(net, start, target, *weights, rigid)
     vertices, iterations, equations = soft, 0, None
     for power in range(8 if rigid else 5):
         terms = [*gentle, *list_constraints(net, start, target, 10.0**power, rigid)]
@@ -162,9 +172,14 @@ def _choose_three(points: np.ndarray) -> tuple[tuple[int, int, int], float]:
 
 
 def list_soft_terms(
-    net: FoldNet, start: Start, target: Target, weights: ExactWeights, rigid: bool
+    net: FoldNet,
+    start: Start,
+    target: Target,
+    weights: ExactWeights,
+    corner: float,
+    rigid: bool,
 ) -> list[Term]:
-    """What shapes a true sheet where its constraints leave it free."""
+    """What shapes a true sheet where its constraints leave it free; `corner` [rad] of panels."""
     alike = FoldWeights(
         stretch=weights.stretch, hinge=weights.hinge, hinge_steep=weights.hinge,
         neutral_fold=weights.neutral_fold, neutral_fold_steep=weights.neutral_fold,
@@ -177,12 +192,12 @@ def list_soft_terms(
     terms: list[Term] = [stretch, creases, neutral, edges]
     if len(net.chains) and weights.fairness:
         terms.append(Fairness(net.chains, net.reference, weights.fairness))
-    terms += [hold_convex(net, weights.margin), hold_folded(net, weights.margin)]
+    terms += [hold_convex(net, corner, weights.margin), hold_folded(net, weights.margin)]
     return [*terms, attraction] if rigid else terms
 
 
-def hold_convex(net: FoldNet, weight: float) -> CornerRange:
-    """Keep panel corners that are so in the flat pattern within CORNER_MARGIN of 0 and pi."""
+def hold_convex(net: FoldNet, corner: float, weight: float) -> CornerRange:
+    """Keep panel corners that are so in the flat pattern further than `corner` from 0 and pi."""
     half, _ = list_half_edges(net.mesh.panels)
     first = net.mesh.panels.starts[:-1]
     before = np.arange(-1, len(half) - 1)
@@ -190,8 +205,8 @@ def hold_convex(net: FoldNet, weight: float) -> CornerRange:
     corners = np.column_stack([half[:, 0], half[:, 1], half[before, 0]])
     one, two = (net.flat[corners[:, k], :2] - net.flat[corners[:, 0], :2] for k in (1, 2))
     turn = np.arctan2(one[:, 0] * two[:, 1] - one[:, 1] * two[:, 0], (one * two).sum(axis=1))
-    inside = (turn > CORNER_MARGIN) & (turn < np.pi - CORNER_MARGIN)
-    return CornerRange(corners[inside], CORNER_MARGIN, np.pi - CORNER_MARGIN, weight)
+    inside = (turn > corner) & (turn < np.pi - corner)
+    return CornerRange(corners[inside], corner, np.pi - corner, weight)
 
 
 def hold_folded(net: FoldNet, weight: float) -> FoldRange:

@@ -1,5 +1,6 @@
 """Fold panels of any kind onto a target: one interface for every mode."""
 
+import math
 import time
 from dataclasses import replace
 
@@ -19,7 +20,7 @@ from foldshell.folding.quality import measure_coverage
 from foldshell.folding.shape import Shape
 from foldshell.folding.soft_panels import Start, fold_net_softly, start_net
 from foldshell.folding.terms import Target, measure_distances
-from foldshell.pattern.panel_mesh import PanelMesh
+from foldshell.pattern.panel_mesh import OBTUSE, TOO_OBTUSE, PanelMesh, measure_largest_angle
 from foldshell.settings.fold import Fold
 
 LEAST, LARGEST = 0.6, 4.0  # sizes of a flat pattern that are taken, of the target's sections
@@ -52,6 +53,8 @@ def fold_panels(mesh: PanelMesh, target: Target | None, mode: str, settings: Fol
     state, reason = judge_shape(
         shape, quality, allowed_rms(limits, mode), limits.plan_coverage * cover, mode
     )
+    state, reason, notes = _look_at_facets(folded, net, state, reason)
+    folded = replace(folded, notes=(*folded.notes, *notes))
     residuals = dict(shape.residuals)
     if reach := target.measure_reach(shape.vertices[start.attracted]):
         residuals["beyond_border_m"] = reach
@@ -60,6 +63,22 @@ def fold_panels(mesh: PanelMesh, target: Target | None, mode: str, settings: Fol
         placed, net.facets, quality, state, reason, shape.iterations,
         time.perf_counter() - began, start.attracted, distances, residuals,
     )  # fmt: skip
+
+
+def _look_at_facets(
+    mesh: PanelMesh, net: FoldNet, state: str, reason: str
+) -> tuple[str, str, tuple[str, ...]]:
+    """Return state, reason and notes with what a facet's largest angle means for the shell."""
+    angles = measure_largest_angle(mesh.vertices, net.facets.facets)
+    worst = int(angles.argmax())
+    words = (
+        f"a facet of panel {net.facets.facet_panel[worst]} has an angle of "
+        f"{math.degrees(angles[worst]):.0f} deg"
+    )
+    if angles[worst] > TOO_OBTUSE:
+        fault = f"{words}, at most {math.degrees(TOO_OBTUSE):.0f} are allowed: buckling factors "
+        return "crumpled" if state == "ok" else state, f"{fault}would be far off; {reason}", ()
+    return state, reason, (f"{words}: buckling factors may be off",) * bool(angles[worst] > OBTUSE)
 
 
 def fold_net(net: FoldNet, start: Start, target: Target, mode: str, settings: Fold) -> Shape:

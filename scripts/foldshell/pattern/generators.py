@@ -207,7 +207,7 @@ def make_waterbomb(
 
 
 def make_resch(
-    lengths: tuple[float, float], rows: int, columns: int, take_up: float = 0.8
+    lengths: tuple[float, float], rows: int, columns: int, take_up: float = 0.75
 ) -> PanelMesh:
     """Resch's triangles: equilateral panels on the surface, star-shaped tucks between them.
 

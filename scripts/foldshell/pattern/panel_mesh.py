@@ -1,5 +1,6 @@
 """Panels of any crease pattern or folded sheet: polygons, their creases, the states they have."""
 
+import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -13,6 +14,8 @@ ASSIGNMENTS = {
     "B": "border", "M": "mountain", "V": "valley", "F": "flat", "U": "not assigned",
     "C": "cut", "N": "cut inside a panel",
 }  # fmt: skip
+OBTUSE, TOO_OBTUSE = math.radians(145), math.radians(155)
+"""Largest angle of a facet: from the first on buckling factors err, above the second grossly."""
 WARPED = 0.005  # of a panel's diagonal: from there on it is said that a panel is cut into facets
 
 

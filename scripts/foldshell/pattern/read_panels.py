@@ -15,6 +15,8 @@ from foldshell.files.units import FACTORS, agree_on_unit, find_factor, name_unit
 from foldshell.pattern.line_graph import build_pattern
 from foldshell.pattern.panel_graph import find_sides
 from foldshell.pattern.panel_mesh import (
+    OBTUSE,
+    TOO_OBTUSE,
     WARPED,
     PanelMesh,
     measure_largest_angle,
@@ -27,8 +29,6 @@ from foldshell.pattern.read_svg import read_svg_lines
 
 PANEL_FORMATS = (*PATTERN_FORMATS, *FORMATS)
 """Suffixes of all files of patterns and folded sheets."""
-OBTUSE, TOO_OBTUSE = math.radians(145), math.radians(155)
-"""Largest angle of a facet: from the first on buckling factors err, above the second grossly."""
 
 
 def read_panels(path: str | Path, file_unit: str | None = None) -> PanelMesh:

@@ -130,7 +130,7 @@ class DesignColumns(Group):
     take_up: float = setting(
         0, ranges=((0.4, 0.98),),
         meaning="Share of its size that is left of a yoshimura, waterbomb or resch sheet once it "
-        "is folded; 0 takes 0.93, 0.85, 0.8.",
+        "is folded; 0 takes 0.93, 0.85, 0.75.",
     )  # fmt: skip
     folded: str = setting(
         NONE,
