@@ -5,7 +5,10 @@ from dataclasses import replace
 from pathlib import Path
 from typing import Protocol
 
+import numpy as np
+
 from foldshell.files.errors import InputError
+from foldshell.pattern.angles import measure_hinges
 from foldshell.pattern.drawings import write_drawings
 from foldshell.pattern.generators import (
     make_accordion,
@@ -14,10 +17,12 @@ from foldshell.pattern.generators import (
     make_waterbomb,
     make_yoshimura,
 )
+from foldshell.pattern.grid import find_hinges
 from foldshell.pattern.panel_drawings import draw_panels
 from foldshell.pattern.panel_fold_format import write_panel_fold
 from foldshell.pattern.panel_mesh import PanelMesh
 from foldshell.pattern.read_panels import read_panels
+from foldshell.pattern.unfold_panels import unfold_net
 from foldshell.settings.design import NONE
 from foldshell.settings.exports import Drawings
 
@@ -30,6 +35,8 @@ class Sections(Protocol):
         ...
 
 
+UNFOLDED = 1e-4  # gap over the size, of panels laid flat, up to which files of others unfold
+FOLDED_ANGLE = math.radians(1)  # from which on an edge of a folded state is a crease
 GENERATORS = {
     "accordion": (make_accordion, {"rest_fold_angle_deg": "fold_angle"}),
     "fan": (make_fan, {"opening_angle_deg": "opening"}),
@@ -51,14 +58,31 @@ def read_folded(path: str | Path, file_unit: str) -> PanelMesh:
 def read_pattern(path: str | Path, file_unit: str) -> PanelMesh:
     """Read a flat crease pattern; of a file with folded states too, the flat one is taken.
 
-    Raises `InputError` for a file without a flat state.
+    A file that has folded states alone is unfolded, and its folds are the rest angles. Raises
+    `InputError` for one that cannot be.
     """
     mesh = read_panels(path, file_unit)
-    if mesh.flat is None:
+    return replace(mesh, folded=None) if mesh.flat is not None else _unfold(path, mesh)
+
+
+def _unfold(path: str | Path, mesh: PanelMesh) -> PanelMesh:
+    found = unfold_net(mesh.vertices, mesh.panels, mesh.vertices)
+    size = float(np.ptp(mesh.vertices, axis=0).max())
+    if not found.closure <= UNFOLDED * size:
         raise InputError(
-            f"{path}: holds no flat sheet: name it in the column folded, or unfold it first"
+            f"{path}: holds no flat sheet, and its panels part by {found.closure:.2g} m when they "
+            "are laid flat one by one: name it in the column folded"
         )
-    return replace(mesh, folded=None)
+    hinges = find_hinges(mesh.facets, mesh.edges)
+    angles = np.full(len(mesh.edges), np.nan)
+    angles[hinges.edges] = measure_hinges(mesh.vertices, hinges.vertices)
+    letters = np.where(angles < -FOLDED_ANGLE, "M", np.where(angles > FOLDED_ANGLE, "V", "F"))
+    letters = np.where(mesh.assignments == "B", "B", letters)
+    note = f"unfolded from its folded state, where panels part by {found.closure:.1g} m"
+    return replace(
+        mesh, flat=found.vertices, rest=None, folded=None, assignments=letters,
+        fold_angles=angles, notes=(*mesh.notes, note),
+    )  # fmt: skip
 
 
 def write_panel_pattern(

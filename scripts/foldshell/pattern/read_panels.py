@@ -9,7 +9,7 @@ import numpy as np
 from foldshell.files.errors import InputError
 from foldshell.files.formats import PATTERN_FORMATS
 from foldshell.files.meshes.library import SAMPLED
-from foldshell.files.meshes.model import count
+from foldshell.files.meshes.model import Mesh, count
 from foldshell.files.meshes.read import FORMATS, read_mesh
 from foldshell.files.units import FACTORS, agree_on_unit, find_factor, name_unit
 from foldshell.pattern.line_graph import build_pattern
@@ -60,7 +60,7 @@ def _read_folded(path: str | Path, file_unit: str | None) -> PanelMesh:
     if SAMPLED in given.notes:
         raise InputError(f"{path}: {SAMPLED}: a folded sheet has planar faces or a mesh")
     try:
-        mended = repair_panels(given, Path(path).suffix.lower() == ".stl")
+        mended = repair_panels(given, _has_triangles_alone(path, given))
     except InputError as error:
         raise InputError(f"{path}: {error}") from None
     edges, _, number = find_sides(mended.panels)
@@ -69,6 +69,12 @@ def _read_folded(path: str | Path, file_unit: str | None) -> PanelMesh:
         mended.panels, edges, letters, np.full(len(edges), np.nan),
         folded=factor * mended.vertices, notes=(*given.notes, *mended.notes),
     )  # fmt: skip
+
+
+def _has_triangles_alone(path: str | Path, mesh: Mesh) -> bool:
+    """Whether a file holds panels as triangles for want of anything else."""
+    suffix = Path(path).suffix.lower()
+    return suffix == ".stl" or (suffix == ".3dm" and bool((np.diff(mesh.starts) == 3).all()))
 
 
 def _check_facets(path: str | Path, mesh: PanelMesh) -> PanelMesh:

@@ -175,7 +175,7 @@ def test_solving_needs_no_target_for_planar_panels():
     assert not found.faults and found.unfolded.closure <= 1e-9
 
 
-def test_a_fold_file_without_a_flat_sheet_is_no_pattern(tmp_path):
+def test_a_fold_file_without_a_flat_sheet_is_unfolded(tmp_path):
     from foldshell.pattern.make_panels import read_pattern
 
     path = tmp_path / "a.fold"
@@ -183,5 +183,11 @@ def test_a_fold_file_without_a_flat_sheet_is_no_pattern(tmp_path):
         "vertices_coords": [[0, 0, 0], [1, 0, 0], [0, 1, 0], [1, 1, 0.5]],
         "faces_vertices": [[0, 1, 2], [1, 3, 2]],
     }))  # fmt: skip
-    with pytest.raises(InputError, match="no flat sheet"):
+    mesh = read_pattern(path, "m")  # two triangles are always flat once they are laid down
+    assert np.ptp(mesh.flat[:, 2]) == 0 and "unfolded" in mesh.notes[-1]
+    path.write_text(json.dumps({
+        "vertices_coords": [[0, 0, 1], [1, 0, 0], [0, 1, 0], [-1, 0, 0], [0, -1, 0]],
+        "faces_vertices": [[0, 1, 2], [0, 2, 3], [0, 3, 4], [0, 4, 1]],
+    }))  # fmt: skip
+    with pytest.raises(InputError, match="no flat sheet, and its panels part by"):
         read_pattern(path, "m")

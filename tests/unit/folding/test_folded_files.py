@@ -5,6 +5,7 @@ import pytest
 
 from folded_roofs import make_roof, write_obj, write_stl
 from foldshell.files.errors import InputError
+from foldshell.files.meshes.extent import measure_extent
 from foldshell.folding.panel_files import panel_arrays, take_folded
 from foldshell.pattern.make_panels import read_folded
 from foldshell.records.arrays import list_arrays
@@ -74,3 +75,10 @@ def test_a_flat_file_is_no_folded_sheet(tmp_path):
     path.write_text('{"vertices_coords": [[0,0],[1,0],[0,1]], "faces_vertices": [[0,1,2]]}')
     with pytest.raises(InputError, match="a flat sheet"):
         read_folded(path, "m")
+
+
+def test_a_plan_of_kilometres_is_refused_with_its_unit(tmp_path):
+    path = write_obj(tmp_path / "a.obj", 1000 * VERTICES, PANELS)
+    with pytest.raises(InputError, match="it looks like millimetres"):
+        measure_extent(path, "declared")
+    assert measure_extent(path, "mm") == pytest.approx([10.8, 14.0, 1.3])

@@ -7,7 +7,18 @@ import numpy as np
 from foldshell.files.errors import InputError
 from foldshell.files.meshes.read import read_mesh
 from foldshell.files.strict_json import read_json_object
-from foldshell.files.units import agree_on_unit, find_factor, find_fold_unit, name_unit
+from foldshell.files.units import (
+    FACTORS,
+    WORDS,
+    agree_on_unit,
+    find_factor,
+    find_fold_unit,
+    name_unit,
+)
+
+SMALLEST, LARGEST = 0.1, 500.0  # m, of the sides of a plan
+PLAUSIBLE = (2.0, 200.0)  # m, of the side of a building: for a message only
+UNITS = ("m", "mm", "cm", "feet", "inch")
 
 
 def measure_extent(path: str | Path, file_unit: str) -> np.ndarray:
@@ -24,6 +35,16 @@ def measure_extent(path: str | Path, file_unit: str) -> np.ndarray:
     size = factor * np.ptp(points, axis=0)
     if not size[:2].min() > 0:
         raise InputError(f"{path}: plan of {size[0]:g} x {size[1]:g} m: a sheet with a plan is due")
+    side = float(size[:2].min())
+    if not SMALLEST <= side <= LARGEST:
+        looks = next(
+            (f"; it looks like {WORDS[unit]}" for unit in UNITS
+             if PLAUSIBLE[0] <= side / factor * FACTORS[unit] <= PLAUSIBLE[1]), "",
+        )  # fmt: skip
+        raise InputError(
+            f"{path}: plan of {size[0]:.5g} x {size[1]:.5g} m: sides of {SMALLEST:g} to "
+            f"{LARGEST:g} are allowed{looks}, say so by file_unit"
+        )
     return size
 
 
