@@ -76,8 +76,7 @@ def files_of_design(wildcards):
 def files_content(wildcards):
     """Return a file whose name tells the content of the design's files, as an input beside them:
     the content decides whether a rule runs again, not the date."""
-    names = list(BY_NAME[wildcards.design].files)
-    return [local(write_content_list(names, LIBRARY))] if names else []
+    return CONTENTS.get(wildcards.design, [])
 
 
 def panels_of_file(wildcards):
@@ -109,6 +108,12 @@ def names_of_tag(tag):
 
 
 include: "library.smk"
+
+
+# Written before Snakemake looks at what there is.
+CONTENTS = {d.name: [local(write_content_list(d.files, LIBRARY))] for d in DESIGNS if d.files}
+
+
 include: "loop.smk"
 include: "server.smk"
 include: "engine.smk"
