@@ -108,12 +108,6 @@ def names_of_tag(tag):
 
 
 include: "library.smk"
-
-
-# Written before Snakemake looks at what there is.
-CONTENTS = {d.name: [local(write_content_list(d.files, LIBRARY))] for d in DESIGNS if d.files}
-
-
 include: "loop.smk"
 include: "server.smk"
 include: "engine.smk"

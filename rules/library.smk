@@ -26,3 +26,7 @@ def assets():
     files = [path for path in Path(PAGES).rglob("*") if path.is_file()]
     data = sorted(path for path in files if path.suffix not in (".py", ".pyc"))
     return local(write_content_list(data, LIBRARY))
+
+
+# Written before Snakemake looks at what there is.
+CONTENTS = {d.name: [local(write_content_list(d.files, LIBRARY))] for d in DESIGNS if d.files}
