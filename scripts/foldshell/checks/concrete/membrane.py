@@ -39,20 +39,40 @@ def design_membrane(force: np.ndarray) -> MembraneDesign:
     EN 1992-1-1:2004 Annex F, F.1 (2) to (4), equations F.2 to F.7.
     """
     x, y, xy = np.moveaxis(np.asarray(force, dtype=float), -1, 0)
+    pull = resolve_membrane(x, y, xy)
     exchanged = x > y
-    low, high = np.minimum(x, y), np.maximum(x, y)
-    shear = np.abs(xy)
-    steep = low < -shear  # the strut is steeper than 45 degrees, and needs one set of bars only
-    ratio = np.divide(shear, -low, out=np.zeros_like(shear), where=steep)
-    first = np.where(steep, 0.0, shear + low)
-    second = np.where(steep, ratio * shear, shear) + high
-    strut = np.where(steep, -low * (1 + ratio**2), 2 * shear)
-    middle, radius = (low + high) / 2, np.hypot((high - low) / 2, xy)
-    principal = radius - middle
-    whole = middle + radius <= ROUND_OFF * principal
-    first, second = (np.where(whole, 0.0, one).clip(min=0.0) for one in (first, second))
+    first, second = np.maximum(np.abs(xy) + np.minimum(x, y), 0.0), pull.second
+    first = np.where(pull.cracked, first, 0.0)
     pair = np.where(exchanged, second, first), np.where(exchanged, first, second)
-    return MembraneDesign(np.stack(pair, axis=-1), np.where(whole, principal, strut), ~whole)
+    return MembraneDesign(np.stack(pair, axis=-1), pull.strut, pull.cracked)
+
+
+@dataclass(frozen=True)
+class Pull:
+    """Of a membrane, all (k,): `second`, the larger force of bars; `strut`; `cracked` bool."""
+
+    second: np.ndarray
+    strut: np.ndarray
+    cracked: np.ndarray
+
+
+def resolve_membrane(x: np.ndarray, y: np.ndarray, xy: np.ndarray) -> Pull:
+    """With s = max(|n_xy|, -n of the more compressed direction): the other bars carry
+    n + n_xy^2 / s, the strut s + n_xy^2 / s, which is every case of Annex F; where those bars get
+    nothing, all is compressed and the strut is the principal force.
+
+    x, y, xy (k,) kN/m, of any number of axes.
+    """
+    shear = np.abs(xy)
+    low, high = np.minimum(x, y), np.maximum(x, y)
+    steep = np.maximum(shear, -low)
+    add = shear * shear / np.where(steep > 0, steep, 1.0)
+    second = high + add
+    cracked = second > ROUND_OFF * steep
+    principal = np.sqrt(((high - low) / 2) ** 2 + shear**2) - (low + high) / 2
+    strut = np.where(cracked, steep + add, principal)
+    second = np.where(cracked, second, 0.0)
+    return Pull(second, strut, cracked)
 
 
 def concrete_forces(force: np.ndarray, steel: np.ndarray) -> np.ndarray:

@@ -13,6 +13,9 @@ from foldshell.checks.concrete.model import ConcreteModel
 from foldshell.checks.concrete.sampling import sample_resultants
 from foldshell.shell.stress import StressResultants
 
+BLOCK = 10_000
+"""States of stress that are designed at a time."""
+
 
 @dataclass(frozen=True)
 class PanelSteel:
@@ -52,15 +55,10 @@ def find_panel_steel(
     layout, asked = model.layout, model.asked
     own = np.append(thickness, 0.0)[np.minimum(model.mesh.panel, model.panels)]
     own = np.where(own > 0, own, 1.0)  # panels of an edge beam are left out at the end
-    force, moment = sample_resultants(model.operators, model.local, resultants)
-    demand = find_demand(force, moment, own, layout, asked.central_lever_ratio)
-    found = np.concatenate(
-        [demand.steel.reshape(*demand.steel.shape[:3], 4), demand.strut_use[..., None]], axis=-1
-    )
+    found, tension = _design_points(model, resultants, own)
     means = take_means(model.local, found)
     envelope = find_envelope(model.local.panel, means, model.panels)
     needed = envelope.value[:, :4].reshape(-1, 2, 2) / layout.strengths.fyd
-    tension = principal_tension(force, moment, own).max(axis=(1, 2))
     peak = np.zeros(model.mesh.panel.max() + 1)
     np.maximum.at(peak, model.mesh.panel, tension)
     cracked = peak[: model.panels] > layout.strengths.fctd
@@ -77,6 +75,26 @@ def find_panel_steel(
         fit_use=find_fit(area, thickness, two, layout),
         envelope=envelope,
     )
+
+
+def _design_points(
+    model: ConcreteModel, resultants: StressResultants, thickness: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """Return steel and share of the strut (E, q, c, 5) at the points, and the largest principal
+    tension (E,) kPa; in blocks of elements that a processor's cache holds."""
+    layout, ratio = model.layout, model.asked.central_lever_ratio
+    points, columns = len(model.local.points), resultants.force.shape[-1]
+    found = np.empty((len(thickness), points, columns, 5))
+    tension = np.empty(len(thickness))
+    size = max(1, BLOCK // (points * columns))
+    for start in range(0, len(thickness), size):
+        part = slice(start, start + size)
+        force, moment = sample_resultants(model.operators, model.local, resultants, part)
+        demand = find_demand(force, moment, thickness[part], layout, ratio)
+        found[part, ..., :4] = demand.steel.reshape(*demand.steel.shape[:3], 4)
+        found[part, ..., 4] = demand.strut_use
+        tension[part] = principal_tension(force, moment, thickness[part]).max(axis=(1, 2))
+    return found, tension
 
 
 def add_least_steel(

@@ -10,8 +10,8 @@ from foldshell.shell.mesh import ShellMesh
 from foldshell.shell.stiffness import ShellOperators
 from foldshell.shell.stress import StressResultants, cell_points, evaluate
 
-DIVISIONS = 12
-"""Cells along an edge of a facet, with one point each: 144 points in a facet."""
+DIVISIONS = 8
+"""Cells along an edge of a facet, with one point each: 64 points in a facet."""
 
 
 @dataclass(frozen=True)
@@ -132,11 +132,15 @@ def turn_components(values: np.ndarray, angle: np.ndarray) -> np.ndarray:
 
 
 def sample_resultants(
-    operators: ShellOperators, sampling: Sampling, resultants: StressResultants
+    operators: ShellOperators,
+    sampling: Sampling,
+    resultants: StressResultants,
+    part: slice = slice(None),
 ) -> tuple[np.ndarray, np.ndarray]:
-    """Return n and m (E, q, c, 3) in kN/m and kNm/m at the points, in the axes of the bars."""
+    """Return n and m (E, q, c, 3) in kN/m and kNm/m at the points, in the axes of the bars; of some
+    elements."""
     force, moment = (
-        turn_components(evaluate(operators, one, sampling.points), sampling.angle)
+        turn_components(evaluate(operators, one[part], sampling.points), sampling.angle[part])
         for one in (resultants.force, resultants.moment)
     )
     return force, moment

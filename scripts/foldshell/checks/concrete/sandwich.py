@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foldshell.checks.concrete.membrane import MembraneDesign, design_membrane
+from foldshell.checks.concrete.membrane import Pull, design_membrane, resolve_membrane
 
 PASSES = 3
 """Times that levers are found anew; the third moves that of a slab by less than 0.1 %."""
@@ -71,22 +71,24 @@ def design_sandwich(
     force, moment : (..., 3) kN/m and kNm/m as xx, yy, xy in the axes of the bars
     thickness : (...) m, more than twice `levels.steel`
     """
-    half = np.broadcast_to(np.asarray(thickness, float) / 2, np.shape(force)[:-1])[..., None]
-    at_steel = half - np.broadcast_to(levels.steel, half.shape[:-1])[..., None]
-    lever = np.repeat(at_steel, 2, axis=-1)
+    n, m = (np.ascontiguousarray(np.moveaxis(one, -1, 0)) for one in (force, moment))
+    half = np.broadcast_to(np.asarray(thickness, float) / 2, n.shape[1:])
+    at_steel = half - levels.steel
+    bottom = top = at_steel
     for _ in range(PASSES):
-        found = design_membrane(split_between_covers(force, moment, lever))
-        lever = _find_levers(found, half, at_steel, levels)
+        total = bottom + top
+        below = resolve_membrane(*((n * top + m) / total))
+        above = resolve_membrane(*((n * bottom - m) / total))
+        bottom, top = (_find_lever(one, half, at_steel, levels) for one in (below, above))
+    lever = np.stack([bottom, top], axis=-1)
     shared = split_between_covers(force, moment, lever)
     found = design_membrane(shared)
     strength = np.where(found.cracked, levels.strut_strength, levels.strength)
-    use = found.strut / (half * strength)
+    use = found.strut / (half[..., None] * strength)
     return SandwichDesign(found.steel, found.strut, use, lever, shared)
 
 
-def _find_levers(
-    found: MembraneDesign, half: np.ndarray, at_steel: np.ndarray, levels: Levels
-) -> np.ndarray:
-    """Return the levers (..., 2) m of covers that need what was found; `half` is t / 2."""
+def _find_lever(found: Pull, half: np.ndarray, at_steel: np.ndarray, levels: Levels) -> np.ndarray:
+    """Return the lever (...) m of a cover that needs what was found; `half` is t / 2."""
     depth = np.minimum(found.strut / levels.strength, half)
-    return np.where(found.steel.any(axis=-1), at_steel, half - depth / 2)
+    return np.where(found.cracked, at_steel, half - depth / 2)
