@@ -130,7 +130,8 @@ class Rings:
         A vertex goes to one that lies in all of its `planes`, to any where these are None.
         """
         refused: set[tuple[int, int]] = set()
-        while (move := self._find_move(least, about, planes, refused)) is not None:
+        short = {k for k in about if self._has_short(k, least)}
+        while (move := self._find_move(least, short, planes, refused)) is not None:
             gone, kept = move
             own = [k for k, ring in enumerate(self.rings) if gone in ring]
             trial = {k: _without(self.rings[k], gone, kept) for k in own}
@@ -139,6 +140,11 @@ class Rings:
                 continue
             for k, ring in trial.items():
                 self.rings[k] = ring
+            short |= about & {k for k in trial if self._has_short(k, least)}
+
+    def _has_short(self, k: int, least: float) -> bool:
+        points = self.vertices[self.rings[k]]
+        return bool((np.linalg.norm(points - np.roll(points, 1, axis=0), axis=1) < least).any())
 
     def _find_move(
         self,
@@ -156,15 +162,12 @@ class Rings:
                 length = float(np.linalg.norm(self.vertices[b] - self.vertices[a]))
                 if length >= shortest:
                     continue
-                for move in sorted(((a, b), (b, a)), key=self._count_planes):
+                for move in sorted(((a, b), (b, a)), key=lambda m: len(self.patches[m[0]])):
                     allowed = planes is None or planes[move[0]] <= planes[move[1]]
                     if allowed and move not in refused:
                         best, shortest = move, length
                         break
         return best
-
-    def _count_planes(self, move: tuple[int, int]) -> int:
-        return len(self.patches[move[0]])
 
     def flatten(self, bad: set[int], least: float) -> None:
         """Put the corners of thin polygons onto their longest side, if they lie nearer than

@@ -1,6 +1,6 @@
 """Outlines and openings as texts of the table of designs: polygons in plan, or files of them."""
 
-from foldshell.settings.regions import Point, read_region
+from foldshell.settings.regions import POLYGON, Point, read_region
 
 OUTLINE_FORMATS = (".csv", ".tsv", ".txt", ".json", ".geojson", ".dxf", ".svg")
 """Suffixes of files that may hold outlines, in small letters."""
@@ -20,4 +20,15 @@ def read_loops(text: str) -> tuple[tuple[Point, ...], ...]:
 
     Raises `ValueError`, which says what is wrong in some words.
     """
-    return tuple(read_region(part.strip()).corners for part in text.split(";"))
+    return tuple(read_region(_drop_doubled(part.strip())).corners for part in text.split(";"))
+
+
+def _drop_doubled(text: str) -> str:
+    """Return the text of a polygon without corners that repeat the one before, such as the last
+    one of a ring that ends where it began."""
+    kind, _, rest = text.partition(" ")
+    if kind != POLYGON:
+        return text
+    corners = [" ".join(corner.split()) for corner in rest.split(",")]
+    kept = [corner for k, corner in enumerate(corners) if corner != corners[k - 1]]
+    return f"{kind} {', '.join(kept or corners)}"
