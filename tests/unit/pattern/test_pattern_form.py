@@ -64,5 +64,5 @@ def test_grading_widens_the_borders_by_its_amount():
     assert widths[0] - widths[20] == pytest.approx(0.5 * 39 / 40 - 0.5 / 40, abs=1e-14)
     np.testing.assert_allclose(widths, widths[::-1])
     assert grade_widths(16, 0) is None
-    with pytest.raises(ValueError, match=r"strip_grading -1.9: the narrowest of 15 strips"):
-        grade_widths(16, -1.9)
+    with pytest.raises(ValueError, match=r"strip_grading -2.2: the narrowest of 15 strips"):
+        grade_widths(16, -2.2)
