@@ -98,7 +98,8 @@ def _find_distinct(space, factors, start, effort: Effort, iterations_max) -> Buc
     before = np.zeros_like(change)
     for number in range(iterations_max):
         values, vectors = space.largest(factors, pairs)
-        change = np.maximum(change, _expect_more(before, values))
+        if effort.watch_growth:
+            change = np.maximum(change, _expect_more(before, values))
         before = values
         searching = (values * LARGEST_FACTOR > 1) | ((number < SEARCH_ITERATIONS) & (values != 0))
         limit = _limits(values, effort)

@@ -24,6 +24,7 @@ class Effort:
         they are followed only to keep the first from settling on a mode that is not the lowest
     second_order_tolerance : least relative change of displacement at which second order ends; the
         setting counts where it is larger
+    watch_growth : count a mode as found only once its factor has stopped falling as the space grows
     check_mechanism : look for mechanisms that Cholesky's method misses
     """
 
@@ -34,6 +35,7 @@ class Effort:
     far_tolerance: float = 1e-2
     neighbour_tolerance: float = 0.2
     second_order_tolerance: float = 0.0
+    watch_growth: bool = True
     check_mechanism: bool = True
 
 
@@ -56,6 +58,8 @@ START = Effort(far_tolerance=0.3, second_order_tolerance=1e-4)
 COLD = replace(START, near_tolerance=3e-2, neighbour_tolerance=0.5)
 """At the begin of a loop, where factors are far above all limits; where not, `START` follows."""
 
-WARM = replace(START, random_vectors=0, followed=1, pairs=1, check_mechanism=False)
+WARM = replace(
+    START, random_vectors=0, followed=1, pairs=1, watch_growth=False, check_mechanism=False
+)
 """Inside a loop from the modes of the analysis before. Elements keep their matrices and change
 their thickness by little, so there is no mechanism where there was none."""
