@@ -46,7 +46,11 @@ def judge_material(design_results: Sequence[DesignResult], comparer: Comparer) -
         comparer.compare("smooth: no more", lower, higher, "volume_per_area", strict=False)
         for lower, higher in pair_neighbours(smooth, "height_m")
     ]
-    return Claim("C5", findings)
+    note = (
+        "Smooth shells are meshed on the surface itself, 3 x 3 quads a panel; where they stand at the "
+        "least thickness of the settings their volume per area is that thickness, whatever the height."
+    )
+    return Claim("C5", findings, notes=(note,) if smooth else ())
 
 
 def judge_surfaces(design_results: Sequence[DesignResult], comparer: Comparer) -> Claim:

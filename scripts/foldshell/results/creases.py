@@ -6,7 +6,9 @@ import numpy as np
 
 from foldshell.pattern.angles import measure_folds, measure_hinges
 from foldshell.pattern.grid import build_grid, find_hinges
+from foldshell.records.arrays import list_arrays
 from foldshell.records.sheet_arrays import FoldedArrays
+from foldshell.shell.curved_panels import PARTS, refine_panels
 from foldshell.shell.mesh import ShellMesh
 
 FOLD_MIN = np.radians(1.0)
@@ -31,7 +33,10 @@ def find_creases(cells: ShellMesh, folded: FoldedArrays, creased: bool = True) -
     cells : result mesh over the facets of the folded sheet
     creased : False where a smooth surface bends at its panels' borders, which are no creases
     """
-    if folded.zigzag is None:
+    if folded.surface is not None:
+        edges, border = _list_curved_sides(folded)
+        fold = np.zeros(len(edges))
+    elif folded.zigzag is None:
         edges, kinds = folded.edges, folded.edge_kind
         fold, border = _measure_sides(folded), kinds == 0
     else:
@@ -44,6 +49,19 @@ def find_creases(cells: ShellMesh, folded: FoldedArrays, creased: bool = True) -
     mountain, valley = inner & (fold < -FOLD_MIN), inner & (fold > FOLD_MIN)
     flat = ~border & ~mountain & ~valley
     return Creases(nodes[mountain], nodes[valley], nodes[flat], nodes[border])
+
+
+def _list_curved_sides(folded: FoldedArrays) -> tuple[np.ndarray, np.ndarray]:
+    """Return the facet edges (X, 2) along the sides of smooth panels, and which are the border."""
+    fine = refine_panels(list_arrays(folded), PARTS)
+    ends = np.sort(fine["facets"][:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2), axis=1)
+    edges, which, count = np.unique(ends, axis=0, return_inverse=True, return_counts=True)
+    owner = np.repeat(fine["facet_panel"], 3)
+    low, high = np.full(len(edges), owner.max()), np.zeros(len(edges), dtype=owner.dtype)
+    np.minimum.at(low, which.ravel(), owner)
+    np.maximum.at(high, which.ravel(), owner)
+    side = (count == 1) | (low != high)
+    return edges[side], count[side] == 1
 
 
 def _measure_sides(folded: FoldedArrays) -> np.ndarray:

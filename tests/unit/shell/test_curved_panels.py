@@ -9,6 +9,8 @@ from foldshell.folding.quadric import make_quadric
 from foldshell.loads.cases import make_load_cases
 from foldshell.pattern.design import design_sheet
 from foldshell.records.arrays import list_arrays
+from foldshell.records.sheet_arrays import FoldedArrays
+from foldshell.results.creases import find_creases
 from foldshell.results.mesh_convergence import CURVED_REFERENCE, choose_reference
 from foldshell.settings.fold import Fold
 from foldshell.settings.loads import Combinations, Loads
@@ -16,7 +18,7 @@ from foldshell.settings.material import Material
 from foldshell.shell.analysis import analyse_shell
 from foldshell.shell.curved_panels import refine_panels
 from foldshell.shell.held_supports import build_supported_model
-from foldshell.shell.mesh_files import mesh_folded_sheet, mesh_from_arrays
+from foldshell.shell.mesh_files import mesh_folded_sheet, mesh_from_arrays, result_mesh
 
 TARGET = make_quadric("paraboloid", 10.0, 3.0)
 
@@ -94,3 +96,16 @@ def test_the_mesh_error_looks_at_six(smooth):
     assert CURVED_REFERENCE.panel_parts == 6
     flat = {name: values for name, values in smooth.items() if name != "surface"}
     assert choose_reference(flat, 4).panel_parts is None
+
+
+def test_borders_of_panels_are_drawn_on_the_surface(smooth):
+    """4 x 5 panels, three sides of facets each: 3 (4 x 6 + 5 x 5) = 147 in all, 54 on the border;
+    every point of them on the surface."""
+    mesh = mesh_folded_sheet(smooth, "all", 4)
+    cells = result_mesh(mesh_from_arrays(mesh), mesh["vertices"], mesh["facets"])
+    found = find_creases(cells, FoldedArrays(**smooth), creased=False)
+    assert len(found.border) == 54 and len(found.flat) == 147 - 54
+    assert len(found.mountain) == len(found.valley) == 0
+    lines = np.concatenate([found.flat, found.border])
+    x, y, z = cells.nodes[lines[:, [0, -1]].ravel()].T
+    assert z == pytest.approx(TARGET.evaluate_height(x, y), abs=1e-12)
