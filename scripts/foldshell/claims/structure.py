@@ -47,8 +47,8 @@ def judge_material(design_results: Sequence[DesignResult], comparer: Comparer) -
         for lower, higher in pair_neighbours(smooth, "height_m")
     ]
     note = (
-        "Smooth shells are meshed on the surface itself, 3 x 3 quads a panel; where they stand at the "
-        "least thickness of the settings their volume per area is that thickness, whatever the height."
+        "Smooth shells are meshed on the surface itself, 3 x 3 quads a panel; where they stand at "
+        "the least thickness of the settings their volume per area is that, whatever the height."
     )
     return Claim("C5", findings, notes=(note,) if smooth else ())
 
