@@ -48,7 +48,7 @@ def read_outline(outline: str, openings: str, file_unit: str = "m") -> Outline |
     if openings != NONE:
         holes += _read_column("openings", openings, file_unit, notes)
     if outer is not None and measure_area(outer) < 0:
-        outer = outer[::-1]
+        outer = np.roll(outer[::-1], 1, axis=0)  # its first corner stays the first
     holes = [hole[::-1] if measure_area(hole) > 0 else hole for hole in holes]
     _check_openings(outer, holes)
     return Outline(outer, tuple(holes), tuple(dict.fromkeys(notes)))
@@ -74,10 +74,10 @@ def _clean(loop: np.ndarray, place: str, notes: list[str]) -> np.ndarray:
         raise InputError(f"{place}: a coordinate that is no finite number")
     if len(loop) > CORNERS_MAX:
         raise InputError(f"{place}: {len(loop)} corners: at most {CORNERS_MAX} are allowed")
-    away = np.linalg.norm(loop - np.roll(loop, 1, axis=0), axis=1)
+    away = np.linalg.norm(loop - np.roll(loop, -1, axis=0), axis=1)
     keep = away > DOUBLED
     if not keep.all() and keep.any():
-        if not (keep[1:].all() and not keep[0]):  # a ring may end where it began
+        if not keep[:-1].all():  # a ring may end where it began
             notes.append(f"{place}: {int((~keep).sum())} corners that stand twice are one each")
         loop = loop[keep]
     if len(loop) < 3:

@@ -24,11 +24,12 @@ def read_loops(text: str) -> tuple[tuple[Point, ...], ...]:
 
 
 def _drop_doubled(text: str) -> str:
-    """Return the text of a polygon without corners that repeat the one before, such as the last
-    one of a ring that ends where it began."""
+    """Return the text of a polygon without corners that the next one repeats, such as the last one
+    of a ring that ends where it began."""
     kind, _, rest = text.partition(" ")
     if kind != POLYGON:
         return text
     corners = [" ".join(corner.split()) for corner in rest.split(",")]
-    kept = [corner for k, corner in enumerate(corners) if corner != corners[k - 1]]
+    following = [*corners[1:], corners[0]]
+    kept = [one for one, other in zip(corners, following, strict=True) if one != other]
     return f"{kind} {', '.join(kept or corners)}"

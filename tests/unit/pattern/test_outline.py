@@ -80,6 +80,9 @@ def test_clockwise_doubled_and_closed_rings_are_mended(tmp_path):
     ring = [*SQUARE[::-1], SQUARE[-1]]
     plain = read_outline(write(tmp_path, "a.csv", rows(ring)), "none")
     assert measure_area(plain.outer) == 324 and not plain.notes
+    assert plain.outer[0].tolist() == [-9, 9], "sides are counted from the first corner"
+    closed = read_outline("polygon -9 -9, 9 -9, 9 9, -9 9, -9 -9", "none")
+    assert closed.outer.tolist() == [list(map(float, point)) for point in SQUARE]
     doubled = read_outline(
         write(tmp_path, "b.csv", rows([*SQUARE[:2], SQUARE[1], *SQUARE[2:]])), "none"
     )
