@@ -1,9 +1,9 @@
 """Values at points of a shell, and their means over facets and over strips beside folds."""
 
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
-from scipy import sparse
 
 from foldshell.checks.strips import NO_EDGE, Strips
 from foldshell.shell.mesh import ShellMesh
@@ -12,6 +12,9 @@ from foldshell.shell.stress import StressResultants, cell_points, evaluate
 
 DIVISIONS = 8
 """Cells along an edge of a facet, with one point each: 64 points in a facet."""
+
+if TYPE_CHECKING:
+    from scipy import sparse
 
 
 @dataclass(frozen=True)
@@ -29,7 +32,7 @@ class Sampling:
 
     points: np.ndarray
     angle: np.ndarray
-    means: sparse.csr_matrix
+    means: "sparse.csr_matrix"
     panel: np.ndarray
     diagonal: np.ndarray
 
@@ -47,6 +50,8 @@ def sample_strips(operators: ShellOperators, strips: Strips, width: float) -> Sa
     columns = strips.element[:, None] * q + np.arange(q)
     shape = len(strips.panel), len(mesh.elements) * q
     entries = weight.ravel(), (np.repeat(rows, q), columns.ravel())
+    from scipy import sparse  # heavy to import, and most analyses need none
+
     means = sparse.csr_matrix(entries, shape)
     means.eliminate_zeros()
     total = np.asarray(means.sum(axis=1)).ravel()
