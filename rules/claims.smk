@@ -1,15 +1,5 @@
 # The claims of the paper: judged by the study, the baselines and runs with other settings.
 
-from foldshell.claims.sensitivity import DELIVERED, SHEAR
-
-
-def delivered_state(wildcards):
-    """Return final state and cross-check of a design for a variant that does not size it anew."""
-    if wildcards.variant not in (*DELIVERED, SHEAR):
-        return []
-    files = ["sizing/final.json", "sizing/final.npz", "crosscheck/comparison.json"]
-    return [f"{RESULTS}/{wildcards.design}/{file}" for file in files]
-
 
 rule sensitivity:
     input:

@@ -14,12 +14,12 @@ rule confirm:
     threads: workflow.cores
     params:
         snakefile=f"{HOME}/Snakefile",
-        folder=f"{EXPLORED}/confirmed",
+        folder=lambda wildcards: f"{EXPLORED}/confirmed",
         rule=EXPLORATION.search.rule,
         factor=EXPLORATION.limits.buckling_factor_min,
         config=parse_group(type(SETTINGS), config),
     message:
-        "exploration " + EXPLORATION.name + ": the best by the ordinary rules"
+        f"exploration {EXPLORATION.name}: the best by the ordinary rules"
     script:
         "../scripts/confirm.py"
 
@@ -37,7 +37,7 @@ rule slopes:
     params:
         **SEARCH,
     message:
-        "exploration " + EXPLORATION.name + ": what would help the best most"
+        f"exploration {EXPLORATION.name}: what would help the best most"
     script:
         "../scripts/slopes.py"
 
@@ -59,7 +59,7 @@ rule explore_page:
     params:
         exploration=SEARCH["exploration"],
     message:
-        "exploration " + EXPLORATION.name + ": page"
+        f"exploration {EXPLORATION.name}: page"
     script:
         "../scripts/explore_page.py"
 
@@ -79,7 +79,7 @@ rule explore_manifest:
         deciding_rules=["propose", "candidate"],
         code=str(HOME),
     message:
-        "exploration " + EXPLORATION.name + ": manifest"
+        f"exploration {EXPLORATION.name}: manifest"
     script:
         "../scripts/manifest.py"
 

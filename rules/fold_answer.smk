@@ -1,19 +1,5 @@
 # What all explorations that have been run come to, beside Table 1 and the smooth shell.
 
-from foldshell.files.errors import InputError
-
-
-def explored_tables(wildcards):
-    """Return the explore.tsv of all explorations in the results."""
-    found = sorted(map(str, Path(RESULTS).glob("explorations/*/explore.tsv")))
-    with user_errors():
-        if not found:
-            raise InputError(
-                f"{RESULTS}/explorations: no exploration has been run: type snakemake explore "
-                "--config exploration=FILE first"
-            )
-    return found
-
 
 rule fold_answer:
     input:
