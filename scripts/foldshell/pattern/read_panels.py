@@ -8,8 +8,8 @@ import numpy as np
 
 from foldshell.files.errors import InputError
 from foldshell.files.formats import PATTERN_FORMATS
-from foldshell.files.meshes.library import SAMPLED
 from foldshell.files.meshes.model import Mesh, count
+from foldshell.files.meshes.nurbs import SAMPLED
 from foldshell.files.meshes.read import FORMATS, read_mesh
 from foldshell.files.units import FACTORS, agree_on_unit, find_factor, name_unit
 from foldshell.pattern.line_graph import build_pattern

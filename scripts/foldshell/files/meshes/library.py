@@ -14,18 +14,19 @@ from foldshell.files.errors import InputError
 from foldshell.files.libraries import need_library
 from foldshell.files.meshes import child, rhino_child
 from foldshell.files.meshes.model import Mesh, MeshError, make_mesh
+from foldshell.files.meshes.nurbs import make_patch, mesh_patch
+from foldshell.files.units import find_factor
 
 BESIDE = rhino_child.__name__
 """Read by the child too: named here, so that rules know that reading depends on it."""
-SAMPLED = "a curved surface, sampled"
-"""Note on a mesh that was no mesh in its file."""
 SECONDS = 120
 """Time that reading may take."""
 
 
-def read_by_library(path: str | Path, unit: str = "metres") -> Mesh:
+def read_by_library(path: str | Path, unit: str = "metres", chord: float | None = None) -> Mesh:
     """Read a .vtk, .vtu, .vtp, .msh or .3dm file; a model of Rhino must be in `unit`, if any.
 
+    A NURBS surface becomes a mesh within `chord` [m] of it.
     Raises `MeshError`, also where the reader crashes, and what to type where the library for
     Rhino's files is missing.
     """
@@ -45,12 +46,19 @@ def read_by_library(path: str | Path, unit: str = "metres") -> Mesh:
             raise MeshError(f"the library that reads it was ended by {name}: damaged or too large")
         if code:
             raise MeshError("the library that reads it failed: damaged, or another format")
-        with np.load(out, allow_pickle=False) as arrays:
-            vertices, sizes, corners = (arrays[k] for k in ("vertices", "sizes", "corners"))
-            notes = (SAMPLED,) if "sampled" in arrays else ()
-            declared = str(arrays["unit"]) if "unit" in arrays else ""
-    mesh = make_mesh(vertices, sizes, corners, vertices.dtype == np.float32, "", notes)
-    return replace(mesh, unit=declared)
+        with np.load(out, allow_pickle=False) as stored:
+            arrays = dict(stored)
+    return replace(_make_mesh(arrays, chord), unit=str(arrays.get("unit", "")))
+
+
+def _make_mesh(arrays: dict[str, np.ndarray], chord: float | None) -> Mesh:
+    """The polygons that the child wrote, or those of its surface."""
+    if "knots_u" in arrays:
+        patch = make_patch(arrays["points"], arrays["knots_u"], arrays["knots_v"])
+        metres = find_factor(str(arrays["unit"]), None)
+        return mesh_patch(patch, None if chord is None else chord / metres)
+    vertices, sizes, corners = (arrays[k] for k in ("vertices", "sizes", "corners"))
+    return make_mesh(vertices, sizes, corners, vertices.dtype == np.float32)
 
 
 def _run(command: list[str]) -> tuple[int, str]:

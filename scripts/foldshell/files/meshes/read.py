@@ -48,11 +48,12 @@ def is_mesh_file(name: str | Path) -> bool:
     return Path(name).suffix.lower() in FORMATS
 
 
-def read_mesh(path: str | Path, unit: str = "metres") -> Mesh:
+def read_mesh(path: str | Path, unit: str = "metres", chord: float | None = None) -> Mesh:
     """Read the vertices and polygons of a mesh file, as they stand in it.
 
     `unit` is the one that the file may declare (metres, millimetres, centimetres, inches, feet),
-    empty for any; `Mesh.unit` is the one that it does.
+    empty for any; `Mesh.unit` is the one that it does. `chord` is how far [m] the mesh of a
+    NURBS surface may lie from it.
 
     Raises `InputError` that names the file, the place in it, what stands there and what is
     allowed. A library that crashes, or asks for more time or memory than a mesh needs, is such
@@ -63,7 +64,7 @@ def read_mesh(path: str | Path, unit: str = "metres") -> Mesh:
     try:
         _check_magic(data, path.suffix.lower())
         parse = _PARSERS.get(path.suffix.lower())
-        mesh = parse(data) if parse else read_by_library(path, unit)
+        mesh = parse(data) if parse else read_by_library(path, unit, chord)
         if not mesh.polygons:
             raise MeshError("holds no faces: 0 triangles, a mesh of faces is needed")
         check_mesh(mesh)

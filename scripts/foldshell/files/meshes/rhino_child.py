@@ -1,13 +1,11 @@
 """Read .3dm by rhino3dm, in the process of its own that `child` is.
 
-Meshes, planar polysurfaces, or one untrimmed surface: that one is sampled where its parameters
-lie evenly, in double precision. Imports nothing of this project.
+Meshes, planar polysurfaces, or one untrimmed surface: that one is handed over as the control
+points and knots that the file holds. Imports nothing of this project.
 """
 
 import numpy as np
 
-SAMPLES = 161
-"""Points along each side of a sampled surface: facets of a 160th of the span sag by 1e-5 of it."""
 UNITS = {"Meters": "metres", "Millimeters": "millimetres", "Centimeters": "centimetres",
          "Inches": "inches", "Feet": "feet"}  # fmt: skip
 _PASSED_OVER = ("Curve", "Point", "PointSet", "Annotation", "TextDot", "Light", "Hatch", "Grip",
@@ -15,9 +13,10 @@ _PASSED_OVER = ("Curve", "Point", "PointSet", "Annotation", "TextDot", "Light", 
 
 
 def read_rhino(path: str, unit: str, refuse) -> dict:
-    """Vertices, corner counts and corners of the polygons; `refuse` makes an error of a sentence.
+    """Vertices, corner counts and corners of the polygons, or one surface's points and knots.
 
-    `unit` is the one that the model must have, empty for any.
+    `refuse` makes an error of a sentence; `unit` is the one that the model must have, empty for
+    any.
     """
     import rhino3dm
 
@@ -33,7 +32,7 @@ def read_rhino(path: str, unit: str, refuse) -> dict:
 
 
 def _read_model(file, refuse) -> dict:
-    """Polygons of the visible objects of a model."""
+    """Polygons or the surface of the visible objects of a model."""
     meshes, solids = _gather(file, refuse)
     if meshes and solids:
         raise refuse(
@@ -44,8 +43,10 @@ def _read_model(file, refuse) -> dict:
     if not solids:
         raise refuse("holds no mesh and no surface that is visible")
     faces = [brep.Faces[k] for brep in solids for k in range(len(brep.Faces))]
-    if len(faces) == 1 and solids[0].IsSurface and not faces[0].IsPlanar(1e-6):
-        return _sample(faces[0])
+    if len(faces) == 1 and not faces[0].IsPlanar(1e-6):
+        if not solids[0].IsSurface:
+            raise refuse("holds a trimmed surface: untrim it, or export a mesh")
+        return _take_nurbs(faces[0])
     return _join_planar(solids, refuse)
 
 
@@ -91,17 +92,19 @@ def _join_meshes(meshes: list) -> dict:
     }
 
 
-def _sample(face) -> dict:
-    """Quadrilaterals over a surface's domain."""
+def _take_nurbs(face) -> dict:
+    """Control points (I, J, 4), times their weights, and the knots that Rhino keeps."""
     surface = face.UnderlyingSurface()
-    ranges = [surface.Domain(axis) for axis in (0, 1)]
-    u, v = (np.linspace(r.T0, r.T1, SAMPLES) for r in ranges)
-    points = [surface.PointAt(float(a), float(b)) for a in u for b in v]
-    number = np.arange(SAMPLES**2).reshape(SAMPLES, SAMPLES)
-    sides = [number[:-1, :-1], number[1:, :-1], number[1:, 1:], number[:-1, 1:]]
-    quads = np.stack([side.ravel() for side in sides], axis=1)
-    return {"vertices": np.array([(p.X, p.Y, p.Z) for p in points]),
-            "sizes": np.full(len(quads), 4), "corners": quads.ravel(), "sampled": True}  # fmt: skip
+    if not hasattr(surface, "Points"):
+        surface = surface.ToNurbsSurface()
+    net = surface.Points
+    stored = [[net[i, j] for j in range(net.CountV)] for i in range(net.CountU)]
+    points = np.array([[(p.X, p.Y, p.Z, p.W) for p in row] for row in stored], dtype=float)
+    knots = {
+        name: np.array([kept[k] for k in range(len(kept))], dtype=float)
+        for name, kept in (("knots_u", surface.KnotsU), ("knots_v", surface.KnotsV))
+    }
+    return {"points": points, **knots}
 
 
 def _join_planar(solids: list, refuse) -> dict:
@@ -112,8 +115,8 @@ def _join_planar(solids: list, refuse) -> dict:
             face = brep.Faces[k]
             if not face.IsPlanar(1e-6):
                 raise refuse(
-                    "holds trimmed or several curved faces: one untrimmed surface, planar faces, "
-                    "or a mesh is allowed"
+                    "holds several curved faces, or curved and planar ones: one untrimmed "
+                    "surface, planar faces, or a mesh is allowed"
                 )
             if len(face.Loops) != 1:
                 raise refuse("holds a planar face with a hole: faces of one outline are allowed")

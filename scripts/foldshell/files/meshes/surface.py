@@ -9,6 +9,7 @@ import numpy as np
 
 from foldshell.files.errors import InputError
 from foldshell.files.meshes.model import Mesh, MeshError, count
+from foldshell.files.meshes.nurbs import CHORD
 from foldshell.files.meshes.read import read_mesh
 from foldshell.files.meshes.triangles import (
     Triangles,
@@ -56,7 +57,7 @@ def read_surface(
     Raises InputError for a file that cannot be read, and for a surface of another scale than the
     span, closed, lying over itself in plan, too steep, or with gaps in the plan.
     """
-    given = read_mesh(path, name_unit(file_unit))
+    given = read_mesh(path, name_unit(file_unit), CHORD * min(sides or (span,)))
     factor = find_factor(given.unit, file_unit)
     mesh = given if factor == 1 else replace(given, vertices=factor * given.vertices)
     try:
