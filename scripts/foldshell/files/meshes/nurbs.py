@@ -112,16 +112,24 @@ def _refine(patch: NurbsPatch, chord: float | None) -> np.ndarray:
         sags = measure_sags(grid)
         if max(sags) <= limit:
             return grid[::2, ::2]
-        twist = max(sags[2] - sags[0] - sags[1], 0.0)
-        finer = 1.02 * np.sqrt(max(sags) / limit)
-        pieces = [
-            int(np.ceil(finer * p)) if sag + twist / 2 > 0.1 * limit else p
-            for p, sag in zip(pieces, sags[:2], strict=True)
-        ]
+        pieces = _cut_finer(pieces, sags, limit)
     raise MeshError(
         f"its surface of {len(spans[0]) - 1} x {len(spans[1]) - 1} spans bends so sharply that "
         f"more than {MOST:,} points are needed: a smoother surface or a mesh is allowed"
     )
+
+
+def _cut_finer(pieces: list[int], sags: tuple[float, float, float], limit: float) -> list[int]:
+    """More pieces along u and v for sags that fall with their square: half the limit for either.
+
+    What one direction leaves of its half is the other one's.
+    """
+    twist = max(sags[2] - sags[0] - sags[1], 0.0)
+    needs = [sags[0] + twist / 2, sags[1] + twist / 2]
+    budgets = [limit - min(need, limit / 2) for need in needs[::-1]]
+    finer = [max(1.0, 1.02 * math.sqrt(n / b)) for n, b in zip(needs, budgets, strict=True)]
+    least = 1.0 if max(finer) > 1.0 else 1.1
+    return [math.ceil(p * max(f, least)) for p, f in zip(pieces, finer, strict=True)]
 
 
 def _close(grid: np.ndarray) -> np.ndarray:

@@ -59,8 +59,11 @@ def measure_double_areas(vertices: np.ndarray, triangles: np.ndarray) -> np.ndar
 
 def find_border(triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Edges (E, 2) of triangles (F, 3) and the number of triangles (E,) at each."""
-    edges = np.sort(triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2), axis=1)
-    return np.unique(edges, axis=0, return_counts=True)
+    sides = triangles[:, [[0, 1], [1, 2], [2, 0]]].reshape(-1, 2)
+    edges = np.sort(sides.astype(np.int64), axis=1)
+    size = max(int(edges.max(initial=0)) + 1, 1)
+    keys, number = np.unique(edges[:, 0] * size + edges[:, 1], return_counts=True)
+    return np.column_stack(np.divmod(keys, size)), number
 
 
 def _merge_equal(vertices: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
