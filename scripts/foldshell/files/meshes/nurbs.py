@@ -40,7 +40,7 @@ class NurbsPatch:
         return first, second
 
     def find_spans(self, axis: int) -> np.ndarray:
-        """Distinct knots (S + 1,), dimensionless, that bound the pieces within the domain."""
+        """Distinct knots (S + 1,), numbers without unit, that bound the pieces of the domain."""
         degree, number = self.degrees[axis], self.points.shape[axis]
         return np.unique(self.knots[axis][degree : number + 1])
 
