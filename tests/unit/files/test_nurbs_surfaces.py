@@ -227,7 +227,8 @@ def cylinder(*caps):
         ((make_surface(CAP, ARC, ARC),), "Microns", "mm", "in Microns: millimetres are allowed"),
         ((make_surface(CAP, ARC, ARC),) * 2, "Meters", "m", "several curved faces"),
         ((cylinder(True, True),), "Meters", "m", "several curved faces, or curved and planar"),
-        ((make_surface(move(CAP, 1e-3), ARC, ARC),), "Meters", "m", "plan 0.0"),
+        ((make_surface(move(CAP, 1e-3), ARC, ARC),), "Meters", "m", "plan 0.02"),
+        ((make_surface(move(CAP, 1e3), ARC, ARC),), "Meters", "m", "it looks like millimetres"),
         ((rhino.NurbsSurface.CreateFromSphere(rhino.Sphere(rhino.Point3d(0, 0, 0), 14.0)),),
          "Meters", "m", "a closed surface"),
     ],
@@ -262,6 +263,7 @@ def test_trimmed_surfaces_are_refused():
         (0.0, ARC, "control point 2, 3 of its surface"),
         (-1.0, ARC, "a positive weight"),
         (math.nan, ARC, "finite coordinates"),
+        (1e300, ARC, "up to 1e"),
         (1.0, (0.0, 1.0, 0.0, 1.0), "knots along u"),
         (1.0, (0.0, 0.0, math.inf, math.inf), "knots along u"),
         (1.0, (1.0, 1.0, 1.0, 1.0), "knots along u"),
@@ -276,6 +278,7 @@ def test_damaged_nets_are_refused(weight, knots, named):
 
 
 def test_what_needs_too_many_points_is_refused():
-    patch = make_patch(CAP, np.array(ARC), np.array(ARC))
+    """A needle 1e6 m high over 30 m: the points would lie 1e-3 m apart at its tip."""
+    patch = make_patch(CAP * [1, 1, 1e5, 1], np.array(ARC), np.array(ARC))
     with pytest.raises(MeshError, match=f"more than {MOST:,} points"):
-        mesh_patch(patch, 1e-9)
+        mesh_patch(patch, 1e-5 * SPAN)

@@ -19,6 +19,8 @@ SHARE = 0.75
 """Of the chord error, for each side: four thirds of a side's sag bound a triangle's."""
 FIRST = 32  # intervals along each side to begin with
 MOST = 1_000_000  # points of a mesh
+RANGE = 1e12  # of homogeneous coordinates; weights lie above its inverse
+LARGEST = 3.0  # sizes of the plan that a surface may have, of the span
 ROUNDINGS = 64  # of the largest coordinate: points nearer than these are one
 ROUNDS = 8  # of refinement
 
@@ -51,16 +53,16 @@ def make_patch(points: np.ndarray, inner_u: np.ndarray, inner_v: np.ndarray) -> 
     Those two are repeated; within the domain no B-spline depends on them.
 
     points (I, J, 4) homogeneous, in the file's unit; inner_u (I + p - 1,), inner_v (J + q - 1,).
-    Raises `MeshError` for numbers that are not finite, weights that are not positive, and knots
-    that fall or do not fit the control points.
+    Raises `MeshError` for numbers that are not finite or beyond RANGE, weights that are not
+    positive, and knots that fall or do not fit the control points.
     """
-    if not (np.isfinite(points).all() and (points[..., 3] > 0).all()):
-        wrong = ~(np.isfinite(points).all(axis=2) & (points[..., 3] > 0))
+    wrong = ~((np.abs(points) < RANGE).all(axis=2) & (points[..., 3] > 1 / RANGE))
+    if wrong.any():
         i, j = np.argwhere(wrong)[0]
         place = ", ".join(f"{value:g}" for value in points[i, j])
         raise MeshError(
             f"control point {i + 1}, {j + 1} of its surface is {place}: finite coordinates and a "
-            "positive weight are allowed"
+            f"positive weight, up to {RANGE:g}, are allowed"
         )
     for name, inner, number in (("u", inner_u, len(points)), ("v", inner_v, points.shape[1])):
         degree = len(inner) - number + 1
@@ -90,7 +92,9 @@ def mesh_patch(patch: NurbsPatch, chord: float | None = None) -> Mesh:
     """Quadrilaterals whose corners lie on a patch, no farther from it than `chord` between them.
 
     `chord` is in the file's unit; None is CHORD of the extent. Every knot is a line of the mesh,
-    so that creases stay. Raises `MeshError` where that needs more than MOST points.
+    so that creases stay. One that is too large for the span that `chord` stands for is meshed by
+    its own size: it will be refused for that. Raises `MeshError` where more than MOST points are
+    needed.
     """
     grid = _close(_refine(patch, chord))
     number = np.arange(grid.shape[0] * grid.shape[1]).reshape(grid.shape[:2])
@@ -108,7 +112,8 @@ def _refine(patch: NurbsPatch, chord: float | None) -> np.ndarray:
             break
         u, v = (_divide(knots, 2 * p) for knots, p in zip(spans, pieces, strict=True))
         grid = evaluate_patch(patch, u, v)
-        limit = SHARE * (chord or CHORD * np.ptp(grid, axis=(0, 1)).max())
+        size = np.ptp(grid, axis=(0, 1))
+        limit = SHARE * max(chord or CHORD * size.max(), CHORD * size[:2].min() / LARGEST)
         sags = measure_sags(grid)
         if max(sags) <= limit:
             return grid[::2, ::2]
