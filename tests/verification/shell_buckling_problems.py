@@ -8,12 +8,12 @@ import numpy as np
 from shell_problems import at, edge_traction, edges_where, grid, nodes_where
 
 from foldshell.shell.analysis import build_model
-from foldshell.shell.assembly import assemble_stiffness, rotation_dofs, translation_dofs
+from foldshell.shell.assembly import assemble_stiffness
 from foldshell.shell.buckling import find_buckling_factors
 from foldshell.shell.effort import Effort
 from foldshell.shell.geometric import apply_geometric
 from foldshell.shell.linear_solver import factorise
-from foldshell.shell.mesh import build_mesh
+from foldshell.shell.mesh import build_mesh, rotation_dofs, translation_dofs
 from foldshell.shell.nodal_loads import nodal_forces
 from foldshell.shell.reference import EDGES
 from foldshell.shell.second_order import solve_second_order

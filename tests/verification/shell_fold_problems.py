@@ -12,8 +12,7 @@ from shell_problems import (
 )
 
 from foldshell.shell.analysis import build_model
-from foldshell.shell.assembly import rotation_dofs, translation_dofs
-from foldshell.shell.mesh import build_mesh
+from foldshell.shell.mesh import build_mesh, rotation_dofs, translation_dofs
 from foldshell.shell.stress import evaluate, membrane_forces
 
 

@@ -9,9 +9,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from foldshell.shell.analysis import build_model
-from foldshell.shell.assembly import assemble_stiffness, rotation_dofs, translation_dofs
+from foldshell.shell.assembly import assemble_stiffness
 from foldshell.shell.linear_solver import factorise
-from foldshell.shell.mesh import ShellMesh, build_mesh
+from foldshell.shell.mesh import ShellMesh, build_mesh, rotation_dofs, translation_dofs
 from foldshell.shell.nodal_loads import nodal_forces
 from foldshell.shell.reference import EDGES
 

@@ -142,21 +142,21 @@ def test_a_hand_edit_redoes_what_follows_and_only_that(code, copied):
 
 
 def test_an_edit_of_the_last_workbook_lets_the_loop_go_on(code, copied):
-    """All 4 iterations are used up; a panel changed in the last workbook gives the design 4 more.
+    """All 4 analyses are used up; a panel changed in the last workbook gives the design 4 more.
 
     That a person changed a panel stands in history and summary.
     """
     loop = copied / "results/tiny-dome/sizing"
     before = last_iteration(copied, "tiny-dome")
-    assert (before["verdict"], before["iteration"]) == ("not_converged", 4)
-    edit(loop / "04/thickness.xlsx", 3, 0.123)
+    assert (before["verdict"], before["iteration"]) == ("not_converged", 3)
+    edit(loop / "03/thickness.xlsx", 3, 0.123)
     assert run(code, copied, TARGET).returncode == 0
     last = last_iteration(copied, "tiny-dome")
-    assert last["counted_from"] == 4 < last["iteration"] <= 8
+    assert last["counted_from"] == 3 < last["iteration"] <= 6
     assert last["verdict"] != "continue"
     with (loop / "history.csv").open(newline="") as stream:
         edited = [row["edited_panels"] for row in csv.DictReader(stream)]
-    assert edited == [*[""] * 4, "1", *[""] * (last["iteration"] - 4)]
+    assert edited == [*[""] * 3, "1", *[""] * (last["iteration"] - 3)]
     with (copied / TARGET).open(newline="") as stream:
         rows = {row["design"]: row["edited_panels"] for row in csv.DictReader(stream)}
     assert rows == {"tiny-dome": "1", "tiny-saddle": ""}
@@ -215,13 +215,16 @@ def test_a_bad_edit_is_refused_with_its_cell_and_stops_no_other_design(code, cop
 
 @pytest.mark.parametrize("victim", ["00/analysis.npz", "02/thickness.xlsx"])
 def test_a_killed_loop_resumes_to_identical_results(code, finished, tmp_path, victim):
-    folder, target = make_study(tmp_path / "killed"), "results/tiny-dome/design.xlsx"
+    folder, target = make_study(tmp_path / "killed"), "results/tiny-dome/sizing/final.json"
     run_and_kill(code, folder, folder / "results/tiny-dome/sizing" / victim, target)
     assert not (folder / target).exists()
     assert run(code, folder, "--unlock").returncode == 0
     done = run(code, folder, target)
     assert done.returncode == 0, done.stderr[-3000:]
-    for pattern in ("results/tiny-dome/*.xlsx", "results/tiny-dome/sizing/*/*.[xn][lp][sz]*"):
+    for pattern in (
+        "results/tiny-dome/sizing/*.xlsx",
+        "results/tiny-dome/sizing/*/*.[xn][lp][sz]*",
+    ):
         found = hashes(folder, pattern)
         assert found and found == hashes(finished, pattern)
 

@@ -10,17 +10,12 @@ from foldshell.loads.cases import SurfaceLoad, combination_matrix
 from foldshell.settings.analysis import Analysis
 from foldshell.settings.field import Factors
 from foldshell.settings.material import Material
-from foldshell.shell.assembly import (
-    LowerPattern,
-    assemble_stiffness,
-    find_pattern,
-    translation_dofs,
-)
+from foldshell.shell.assembly import LowerPattern, assemble_stiffness, find_pattern
 from foldshell.shell.boundary import find_acting
 from foldshell.shell.buckling import BucklingResult
 from foldshell.shell.effort import USUAL, Effort
 from foldshell.shell.linear_solver import NotPositiveDefiniteError
-from foldshell.shell.mesh import ShellMesh
+from foldshell.shell.mesh import ShellMesh, translation_dofs
 from foldshell.shell.nodal_loads import nodal_forces
 from foldshell.shell.placed_loads import PlacedLoads, place_loads
 from foldshell.shell.second_order import SecondOrderResult

@@ -52,17 +52,6 @@ class LowerPattern:
         return np.argsort(self.dofs)
 
 
-def translation_dofs(nodes: np.ndarray, directions: tuple[int, ...] = (0, 1, 2)) -> np.ndarray:
-    """Return the numbers (k d,) of displacements at nodes (k,) along d `directions`: x is 0."""
-    return (3 * np.asarray(nodes, dtype=np.int64)[:, None] + np.array(directions)).ravel()
-
-
-def rotation_dofs(mesh: ShellMesh, edges: np.ndarray) -> np.ndarray:
-    """Return the numbers (k p,) of all rotation coefficients of element edges (k,)."""
-    start = 3 * len(mesh.nodes) + mesh.order * np.asarray(edges, dtype=np.int64)
-    return (start[:, None] + np.arange(mesh.order)).ravel()
-
-
 def find_pattern(
     operators: ShellOperators, fixed: np.ndarray, springs: np.ndarray | None = None
 ) -> LowerPattern:

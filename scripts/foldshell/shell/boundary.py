@@ -9,8 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foldshell.shell.assembly import rotation_dofs, translation_dofs
-from foldshell.shell.mesh import ShellMesh, find_facet_edges
+from foldshell.shell.mesh import ShellMesh, find_facet_edges, rotation_dofs, translation_dofs
 from foldshell.shell.reference import EDGES
 
 DEPENDENT = 1e-9

@@ -5,9 +5,8 @@ from collections.abc import Mapping
 import numpy as np
 
 from foldshell.shell.analysis import ShellModel, build_model
-from foldshell.shell.assembly import translation_dofs
 from foldshell.shell.boundary import Boundary, Hold, join_holds, list_nodes, spread_springs
-from foldshell.shell.mesh import ShellMesh
+from foldshell.shell.mesh import ShellMesh, translation_dofs
 from foldshell.shell.supports import BORDERS, share_supported_nodes
 
 

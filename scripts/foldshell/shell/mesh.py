@@ -214,3 +214,14 @@ def _number_edges(corners: np.ndarray) -> tuple[np.ndarray, np.ndarray, int]:
     keys, numbers = np.unique(low.ravel() * (high.max() + 1) + high.ravel(), return_inverse=True)
     signs = np.where(ends[:, :, 0] < ends[:, :, 1], 1, -1)
     return numbers.reshape(-1, 3), signs, len(keys)
+
+
+def translation_dofs(nodes: np.ndarray, directions: tuple[int, ...] = (0, 1, 2)) -> np.ndarray:
+    """Return the numbers (k d,) of displacements at nodes (k,) along d `directions`: x is 0."""
+    return (3 * np.asarray(nodes, dtype=np.int64)[:, None] + np.array(directions)).ravel()
+
+
+def rotation_dofs(mesh: ShellMesh, edges: np.ndarray) -> np.ndarray:
+    """Return the numbers (k p,) of all rotation coefficients of element edges (k,)."""
+    start = 3 * len(mesh.nodes) + mesh.order * np.asarray(edges, dtype=np.int64)
+    return (start[:, None] + np.arange(mesh.order)).ravel()

@@ -6,8 +6,7 @@ Tolerances are 1e-9 of the largest term: round-off of matrices with entries of 1
 import numpy as np
 import pytest
 
-from foldshell.shell.assembly import rotation_dofs, translation_dofs
-from foldshell.shell.mesh import build_mesh, edge_polyline_nodes
+from foldshell.shell.mesh import build_mesh, edge_polyline_nodes, rotation_dofs, translation_dofs
 from foldshell.shell.reference import EDGES
 from foldshell.shell.stiffness import build_operators
 from foldshell.shell.stress import stress_resultants

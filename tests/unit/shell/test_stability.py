@@ -11,7 +11,7 @@ from foldshell.settings.analysis import Analysis
 from foldshell.settings.loads import Loads
 from foldshell.settings.material import Material
 from foldshell.shell.analysis import analyse_shell, build_model
-from foldshell.shell.assembly import assemble_stiffness, find_pattern, translation_dofs
+from foldshell.shell.assembly import assemble_stiffness, find_pattern
 from foldshell.shell.buckling import find_buckling_factors
 from foldshell.shell.cholmod_library import open_library
 from foldshell.shell.geometric import GeometricProducts, apply_geometric
@@ -21,7 +21,7 @@ from foldshell.shell.linear_solver import (
     NotPositiveDefiniteError,
     factorise,
 )
-from foldshell.shell.mesh import build_mesh
+from foldshell.shell.mesh import build_mesh, translation_dofs
 from foldshell.shell.results import reaction_imbalance, support_reactions
 from foldshell.shell.second_order import solve_second_order
 from foldshell.shell.stiffness import build_operators

@@ -8,8 +8,7 @@ from foldshell.settings.analysis import Analysis
 from foldshell.settings.material import Material
 from foldshell.settings.zones import read_zone
 from foldshell.shell.analysis import analyse_shell, build_model
-from foldshell.shell.assembly import rotation_dofs, translation_dofs
-from foldshell.shell.mesh import build_mesh
+from foldshell.shell.mesh import build_mesh, rotation_dofs, translation_dofs
 from foldshell.shell.results import support_reactions, translations
 from foldshell.shell.stress import stress_resultants
 
