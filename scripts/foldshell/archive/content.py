@@ -16,8 +16,8 @@ from foldshell.files.whole import hash_file
 
 FIELDS = (".vtu", ".npz")
 """Endings of the large files of fields, which an archive may leave out."""
-NEEDED_FIELDS = ("folded.npz", "mesh.npz", "final.npz")
-"""Fields that stay in any case: shape, mesh and final state of a design."""
+NEEDED_FIELDS = ("folded.npz", "mesh.npz", "iterations.npz", "classes.npz")
+"""Fields that stay in any case: shape, mesh, and the thicknesses of all iterations of a design."""
 CODE, RESULTS, CONFIG, GIVEN = "code", "results", "config", "given"
 RULE = "archive_study"
 """The rule that makes an archive: its record of an earlier one stays outside, as that one does."""

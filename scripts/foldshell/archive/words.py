@@ -69,5 +69,5 @@ def describe_archive(
         difference=patch if options.dirty == "diff" else "",
         fields="Fields of all iterations are in it."
         if options.fields
-        else "Fields of iterations and pictures' data (.npz, .vtu) are left out but for the last.",
+        else "Fields (.npz, .vtu) are left out but for shape, mesh and thicknesses.",
     )

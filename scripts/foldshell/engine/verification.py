@@ -78,9 +78,5 @@ def _recompute(bag: Path, design: str, folder: Path) -> Said:
     from foldshell.archive.recompute import recompute
 
     found = recompute(bag, design, folder)
-    lines = [
-        f"{design}: {item.file}: "
-        + ("the same bytes" if item.same_bytes else f"differs by {item.largest:.2g} of the largest")
-        for item in found
-    ]
+    lines = [f"{design}: {item.describe()}" for item in found]
     return lines, int(not all(item.passed for item in found))

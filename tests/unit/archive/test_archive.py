@@ -96,12 +96,19 @@ def test_an_earlier_archive_stays_outside(study, tmp_path):
     assert verify.verify_archive(path)[1] == 0
 
 
-def test_without_fields_the_last_state_stays(study, tmp_path):
-    path = write(study, tmp_path / "t.zip", fields=False)
+def test_without_fields_shape_and_thicknesses_stay(study, tmp_path):
+    """Which is how an archive is made unless fields are asked for."""
+    home = study.results / "a"
+    for name in ("folded/folded.npz", "sizing/iterations.npz", "sizing/final.npz"):
+        write_arrays(home / name, {"thickness": np.ones((2, 6))})
+    path = write(study, tmp_path / "t.zip")
     with zipfile.ZipFile(path) as archive:
-        names = archive.namelist()
-    assert not any(name.endswith("sizing/00/analysis.npz") for name in names)
+        names = "\n".join(archive.namelist())
+    assert "folded.npz" in names and "iterations.npz" in names
+    assert "analysis.npz" not in names and "final.npz" not in names
     assert verify.verify_archive(path)[1] == 0
+    with zipfile.ZipFile(write(study, tmp_path / "f.zip", fields=True)) as archive:
+        assert "t/data/results/a/sizing/final.npz".replace("t/", "f/", 1) in archive.namelist()
 
 
 def test_a_dirty_tree_is_refused_or_said(study, tmp_path):
@@ -199,6 +206,22 @@ def test_differences_of_tables_name_design_and_column(tmp_path):
     assert list(compare_tables(tmp_path / "one", tmp_path / "none")) == ["was not made"]
 
 
+def test_a_file_that_was_left_out_is_compared_by_its_hash(tmp_path):
+    for name, value in (("one", 1.0), ("other", 1.0)):
+        home = tmp_path / name
+        write_arrays(home / "folded/folded.npz", {"vertices": np.array([value])})
+        write_arrays(home / "sizing/final.npz", {"thickness": np.array([0.1])})
+        write_json(home / "sizing/final.json", {"verdict": "converged", "volume_m3": 0.1})
+    record(tmp_path / "one", "size", "size", ["sizing/final.npz"])
+    (tmp_path / "one/sizing/final.npz").unlink()
+    found = compare_design(tmp_path / "one", tmp_path / "other")
+    assert all(item.same_bytes for item in found)
+    write_arrays(tmp_path / "other/sizing/final.npz", {"thickness": np.array([0.2])})
+    second = compare_design(tmp_path / "one", tmp_path / "other")[1]
+    assert not second.same_bytes and second.passed
+    assert "not in the archive" in second.describe()
+
+
 def test_sums_that_do_not_close_are_said(tmp_path):
     """Two unit triangles of one panel, 0.1 m thick: 1 m2 and 0.1 m3."""
     home = tmp_path / "a"
@@ -210,6 +233,13 @@ def test_sums_that_do_not_close_are_said(tmp_path):
     final = {"volume_m3": 0.1, "area_m2": 1.0, "reaction_imbalance": 1e-9}
     write_json(home / "sizing/final.json", final)
     assert list(check_sums(tmp_path)) == []
+    (home / "sizing/final.npz").unlink()  # left out: the last of all iterations is there
+    write_arrays(home / "sizing/iterations.npz", {"thickness": np.array([[0.2], [0.1]])})
+    write_json(home / "sizing/final.json", final | {"iteration": 1})
+    assert list(check_sums(tmp_path)) == []
+    write_json(home / "sizing/final.json", final | {"iteration": 0})
+    assert len(list(check_sums(tmp_path))) == 1
+    write_arrays(home / "sizing/final.npz", {"thickness": np.array([0.1])})
     for key, value in (("volume_m3", 0.1001), ("area_m2", 1.0001), ("reaction_imbalance", 1e-5)):
         write_json(home / "sizing/final.json", final | {key: value})
         assert len(list(check_sums(tmp_path))) == 1
