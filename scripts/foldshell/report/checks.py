@@ -20,6 +20,12 @@ ROUNDING = 1e-6
 BUCKLING = "buckling factor, elastic, perfect shell [-]"
 
 
+OPEN = "(open:"
+"""In the name of a check whose value does not settle with the mesh."""
+MOST = 99.0
+"""Where checks of reinforced concrete stop counting: there is no resistance to speak of."""
+
+
 @dataclass(frozen=True)
 class Check:
     """One check: value and limit in the unit of its name; `ratio` is 1 at the limit, above it the
@@ -87,6 +93,8 @@ def describe_share(ratio: float | None) -> str:
     """
     if ratio is None:
         return "–"
+    if ratio >= MOST:
+        return "99 times or more"
     percent = 100 * ratio
     if round(percent) != 100 or percent == 100:
         return f"{percent:.0f} %"
@@ -96,9 +104,14 @@ def describe_share(ratio: float | None) -> str:
 
 
 def find_governing(checks: Sequence[Check]) -> Check | None:
-    """Return the check that uses most of its limit."""
+    """Return the check that uses most of its limit.
+
+    One that is open, since its value does not settle with the mesh, does not hide another that is
+    above its limit.
+    """
     known = [check for check in checks if check.ratio is not None]
-    return max(known, key=lambda check: check.ratio, default=None)
+    settled = [check for check in known if OPEN not in check.name and check.ratio > 1]
+    return max(settled or known, key=lambda check: check.ratio, default=None)
 
 
 def read_checks(final: AnalysisRecord, paths: Mapping[str, str | Path]) -> list[Check]:

@@ -10,7 +10,7 @@ from foldshell.files.errors import InputError
 from foldshell.records.analysis import NO_LIMIT
 from foldshell.records.engineering import EngineeringCheck, EngineeringRecord
 from foldshell.records.files import read_record
-from foldshell.report.checks import Check, describe_share
+from foldshell.report.checks import Check, describe_share, find_governing
 from foldshell.report.markup import Table, make_table
 from foldshell.report.section import Box, Folded, Section, judge_met
 
@@ -56,8 +56,10 @@ def make_engineering(record: EngineeringRecord | None) -> list[Section]:
               record.verdict.replace("_", " "), record.reason)  # fmt: skip
     rows = [(one.name, one.value, one.limit, describe_share(one.ratio), judge_met(one.met),
              one.where) for one in list_engineering(record)]  # fmt: skip
+    governing = find_governing(list_engineering(record))
+    words = f"Governs by the engineering checks: {governing.words}." if governing else ""
     sections = [
-        Section("Engineering verdict", box, table=make_table(HEADER, rows),
+        Section("Engineering verdict", box, words, table=make_table(HEADER, rows),
                 note=describe_measures(record)),
         *make_reinforcement(record),
         Section("Engineering: combinations", folded=Folded(

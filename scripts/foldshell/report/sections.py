@@ -178,7 +178,9 @@ def make_checks(checks: Sequence[Check], reading: str = "") -> Section:
         for check in checks
     ]  # fmt: skip
     header = ("check", "value", "limit", "of its limit", "met", "where")
-    box = Box("good" if governing.met else "bad", governing.words, "governs")
+    box = Box(
+        "good" if governing.met else "bad", governing.words, "governs by the paper's criteria"
+    )
     return Section(
         "Checks by the paper's criteria", box, words=reading, table=make_table(header, rows)
     )

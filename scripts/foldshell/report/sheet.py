@@ -96,11 +96,13 @@ def _describe_engineering(record: EngineeringRecord | None) -> Json | None:
     """Return the engineering verdict with its checks, None without one."""
     if record is None:
         return None
+    governing = find_governing(list_engineering(record))
     return {
         "verdict": record.verdict.replace("_", " "),
         "good": record.verdict == "passes",
         "reason": record.reason,
         "checks": [_bar(check) for check in list_engineering(record)],
+        "governing": governing.words if governing else "",
         "measures": describe_measures(record),
     }
 
