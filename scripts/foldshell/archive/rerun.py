@@ -15,16 +15,20 @@ from foldshell.archive.content import CODE, CONFIG, GIVEN, RESULTS
 from foldshell.archive.edits import Edit, describe_edits
 from foldshell.files.errors import InputError
 from foldshell.files.job_record import read_records
+from foldshell.files.whole import Json
+
+TABLES = ("load_table", "supports")
+"""Settings that name further tables."""
 
 
 @dataclass(frozen=True)
 class Rerun:
     """A folder in which the workflow of an archive runs: contents of the archive, the folder
-    `code` that it runs in, the table of designs as seen from there."""
+    `code` that it runs in, settings that name its tables as seen from there."""
 
     data: Path
     code: Path
-    table: str
+    tables: tuple[str, ...]
 
     def run(self, targets: Sequence[str], cores: int, show: bool = False) -> None:
         """Run Snakemake for targets, or for the whole study without any.
@@ -35,7 +39,7 @@ class Rerun:
             for a run that fails.
         """
         words = [sys.executable, "-m", "snakemake", "--cores", str(cores), "--configfile"]
-        words += [f"../{CONFIG}/config.yaml", "--config", f"designs={self.table}"]
+        words += [f"../{CONFIG}/config.yaml", "--config", *self.tables]
         words += [f"results={RESULTS}", "--", *targets]
         done = subprocess.run(words, cwd=self.code, capture_output=not show, text=True)
         if done.returncode:
@@ -72,7 +76,19 @@ def prepare_rerun(bag: Path, folder: Path) -> Rerun:
             (folder / CODE / place).parent.mkdir(parents=True, exist_ok=True)
             shutil.copyfile(data / CONFIG / place.name, folder / CODE / place)
     table = Path(str(settings.get("designs", "designs.tsv"))).name
-    return Rerun(data, folder / CODE, f"../{CONFIG}/{table}")
+    return Rerun(
+        data, folder / CODE, (f"designs=../{CONFIG}/{table}", *_other_tables(data, settings))
+    )
+
+
+def _other_tables(data: Path, settings: Json) -> list[str]:
+    """Return settings that name the archived tables of loads and supports, where the commit does
+    not hold them at their own place."""
+    named = [(key, Path(str(settings[key]))) for key in TABLES if key in settings]
+    return [
+        f"{key}=../{CONFIG}/{path.name}" for key, path in named
+        if not (data / CODE / path).is_file() and (data / CONFIG / path.name).is_file()
+    ]  # fmt: skip
 
 
 def rerun_study(bag: Path, folder: Path, cores: int = 2) -> list[str]:

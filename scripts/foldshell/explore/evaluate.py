@@ -7,7 +7,6 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from foldshell.explore.measures import (
-    ANGLES,
     GEOMETRIC,
     find_broken,
     measure_creases,
@@ -20,7 +19,7 @@ from foldshell.pattern.design import design_sheet
 from foldshell.pattern.sheet import Sheet
 from foldshell.records.analysis import AnalysisRecord
 from foldshell.records.arrays import list_arrays
-from foldshell.records.candidate import CandidateRecord, ScreenedRecord
+from foldshell.records.candidate import ANGLES, CandidateRecord, ScreenedRecord
 from foldshell.settings.design import Design
 from foldshell.settings.exploration import Exploration, Search
 from foldshell.settings.field import Plain

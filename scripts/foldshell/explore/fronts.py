@@ -10,6 +10,7 @@ def rank_by(records: Sequence[CandidateRecord], aim: str) -> list[CandidateRecor
     """Return candidates by an aim, best first; those without a value come last."""
 
     def key(record: CandidateRecord) -> tuple[bool, float, str]:
+        """Order by the aim; candidates that are alike in it by name."""
         value = getattr(record, aim)
         return value is None, AIMS[aim] * (value or 0.0), record.candidate
 

@@ -16,8 +16,6 @@ BOUNDS = {
     "buckling_factor_min": ("buckling_factor_min", 1),
 }
 """Each limit by what it holds: 1 where it is the least value allowed, -1 the largest."""
-ANGLES = ("sector_angle_deg", "rest_fold_angle_deg")
-"""Of a sheet, also where its columns leave them to the settings."""
 GEOMETRIC = ("plan_coverage_min", "edge_strain_max", "planarity_max", "depth_min_m", "depth_max_m")
 """Limits that are known once a sheet is folded."""
 

@@ -6,20 +6,14 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from foldshell.explore.fronts import find_front, rank_by
-from foldshell.explore.measures import ANGLES, count_broken
+from foldshell.explore.measures import count_broken
 from foldshell.files.errors import InputError
 from foldshell.files.whole import write_text_if_changed
-from foldshell.records.candidate import CandidateRecord
+from foldshell.records.candidate import MEASURES, CandidateRecord
 from foldshell.settings.design import COLUMNS, DesignColumns
 from foldshell.settings.exploration import Exploration
 from foldshell.settings.field import Plain, list_settings
 
-MEASURES = (
-    "volume_m3", "area_m2", "panels", "crease_length_m", "buckling_factor_min",
-    "displacement_vertical_max_m", "utilization_panel_mean_max", "iterations", "cheap_m3",
-    "plan_coverage", "edge_strain_max", "planarity_max", "depth_m", "mesh_subdivisions",
-)  # fmt: skip
-"""What a table says of a candidate, besides its columns."""
 ENDS = ("state", "feasible", "broken", "reason")
 
 
@@ -46,24 +40,14 @@ def _write(value: object) -> str:
     return ", ".join(value) if isinstance(value, tuple) else f"{value}"
 
 
-def list_variables(exploration: Exploration) -> list[str]:
-    """Return the columns that vary, and those that the designs of round 0 differ in."""
-    return ["pattern", *(v.name for v in exploration.variables if v.name != "pattern")]
-
-
-def value_of(record: CandidateRecord, name: str) -> object:
-    """Return what a candidate has in a column, an angle also where the settings gave it."""
-    return getattr(record, name) if name in ANGLES else record.columns[name]
-
-
 def tabulate(exploration: Exploration, records: Sequence[CandidateRecord]) -> list[list[object]]:
     """Return a header and a row a candidate: name, variables, measures, ends."""
-    variables = list_variables(exploration)
+    variables = exploration.columns
     header: list[object] = ["candidate", *variables, *MEASURES, *ENDS]
     rows = [
         [
             record.candidate,
-            *(value_of(record, name) for name in variables),
+            *(record.value_of(name) for name in variables),
             *(getattr(record, name) for name in (*MEASURES, *ENDS)),
         ]
         for record in sorted(records, key=lambda record: record.candidate)
@@ -83,14 +67,14 @@ def write_design_explorer(
     path: str | Path, exploration: Exploration, records: Sequence[CandidateRecord]
 ) -> None:
     """Write the candidates that have a volume as Design Explorer reads them: `in:` and `out:`."""
-    variables = list_variables(exploration)
+    variables = exploration.columns
     numbers = [name for name in MEASURES if name != "mesh_subdivisions"]
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow([*(f"in:{name}" for name in variables), *(f"out:{name}" for name in numbers)])
     for record in sorted(records, key=lambda record: record.candidate):
         if record.volume_m3 is not None:
-            cells = [value_of(record, name) for name in variables]
+            cells = [record.value_of(name) for name in variables]
             writer.writerow([*cells, *(getattr(record, name) for name in numbers)])
     write_text_if_changed(path, text.getvalue())
 

@@ -10,8 +10,8 @@ from foldshell.files.whole import atomic_path
 from foldshell.folding.cut_panels import CutPanels, cut_panels
 from foldshell.folding.files import describe_quality
 from foldshell.folding.fold import FoldResult
-from foldshell.folding.panel_files import FoldedPanels, describe_panels
-from foldshell.folding.panel_quality import measure_facet_strain, measure_panel_warp
+from foldshell.folding.panel_files import FoldedPanels, describe_panels, mesh_arrays
+from foldshell.folding.panel_quality import measure_facet_strain
 from foldshell.pattern.folded_panels import KINDS, number_kinds
 from foldshell.pattern.outline import Outline
 from foldshell.pattern.panel_graph import Ragged
@@ -39,20 +39,9 @@ def cut_folded_panels(result: FoldedPanels, outline: Outline) -> CutPanels:
 
 def cut_arrays(cut: CutPanels, outline: Outline) -> FoldedArrays:
     """Return the contents of folded.npz: the panels that are analysed, and the exact pieces."""
-    shell, exact = cut.shell, cut.exact
-    return FoldedArrays(
-        vertices=shell.vertices,
-        facets=cut.facets,
-        planarity=measure_panel_warp(shell.vertices, shell.panels),
-        facet_panel=cut.facet_panel,
-        panel_starts=shell.panels.starts,
-        panel_corners=shell.panels.corners,
-        edges=shell.edges,
-        edge_kind=number_kinds(shell.assignments),
-        flat=shell.flat,
-        strain=measure_facet_strain(shell, cut.facets),
-        panel_row=shell.labels.get("row"),
-        panel_place=shell.labels.get("place"),
+    exact = cut.exact
+    return replace(
+        mesh_arrays(cut.shell, cut.facets, cut.facet_panel),
         outline=outline.outer,
         cut_vertices=exact.vertices,
         cut_flat=exact.flat,

@@ -5,7 +5,7 @@ not domes or cylinders (Schenk and Guest, PNAS 110 (2013) 3276).
 """
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -174,27 +174,14 @@ def _attempt(
     stages: tuple[tuple[float, ...], ...],
     least: float,
 ) -> Attempt:
-    vertices, iterations, equations = _lay_planar(sheet, target), 0, None
-    for stage in stages:
-        terms = _stage_terms(sheet, target, settings, *stage)
-        equations = equations or NormalEquations([t.columns for t in terms], vertices.size)
-        minimum = minimise_terms(
-            terms, vertices, max_iterations=settings.max_iterations,
-            cost_tolerance=settings.tolerance, step_tolerance=1e-9 * target.span,
-            equations=equations,
-        )  # fmt: skip
-        vertices, iterations = minimum.vertices, iterations + minimum.iterations
+    listed = (_stage_terms(sheet, target, settings, *stage) for stage in stages)
+    vertices, iterations = bend_by_stages(listed, _lay_planar(sheet, target), settings, target.span)
     if "sway" in sheet.settings:
         minimum = _slide(sheet, target, settings, vertices)
         vertices, iterations = minimum.vertices, iterations + minimum.iterations
     lengths = Stretch(sheet.grid.edges, edge_lengths(sheet.flat, sheet.grid.edges), 1.0)
-    projected = project_vertices([lengths], vertices)
-    if projected.residual > STRAIN:  # pulled too far to be projected: let the lengths relax alone
-        relaxed = minimise_terms(
-            [lengths], vertices, max_iterations=500, cost_tolerance=0.0, step_tolerance=1e-9
-        )
-        iterations += relaxed.iterations
-        projected = project_vertices([lengths], relaxed.vertices)
+    projected, relaxed = project_lengths(lengths, vertices)
+    iterations += relaxed
     written = round_as_written(projected.vertices, target)
     residual = measure_residual([lengths], written)
     iterations += projected.iterations
@@ -202,6 +189,40 @@ def _attempt(
     points = solution.vertices[attracted_vertices(sheet, settings.attract)]
     distance = root_mean_square(measure_distances(points, target)) / target.span
     return Attempt(sheet, solution, distance, _is_crumpled(solution.vertices, sheet, target, least))
+
+
+def bend_by_stages(
+    stages: Iterable[list[Term]], vertices: np.ndarray, settings: Fold, span: float
+) -> tuple[np.ndarray, int]:
+    """Minimise the terms of one stage after the other, each from where the last one ended.
+
+    Returns vertices (V, 3) m and the iterations of all; `span` in m scales the least step. The
+    terms of all stages have the same columns.
+    """
+    iterations, equations = 0, None
+    for terms in stages:
+        equations = equations or NormalEquations([t.columns for t in terms], vertices.size)
+        minimum = minimise_terms(
+            terms, vertices, max_iterations=settings.max_iterations,
+            cost_tolerance=settings.tolerance, step_tolerance=1e-9 * span,
+            equations=equations,
+        )  # fmt: skip
+        vertices, iterations = minimum.vertices, iterations + minimum.iterations
+    return vertices, iterations
+
+
+def project_lengths(lengths: Stretch, vertices: np.ndarray) -> tuple[Solution, int]:
+    """Project vertices (V, 3) m onto edge lengths; those that were pulled too far relax before.
+
+    Returns the projection and the iterations of relaxing alone.
+    """
+    projected = project_vertices([lengths], vertices)
+    if projected.residual <= STRAIN:
+        return projected, 0
+    relaxed = minimise_terms(
+        [lengths], vertices, max_iterations=500, cost_tolerance=0.0, step_tolerance=1e-9
+    )
+    return project_vertices([lengths], relaxed.vertices), relaxed.iterations
 
 
 def _slide(sheet: Sheet, target: Target, settings: Fold, vertices: np.ndarray) -> Minimum:

@@ -3,12 +3,10 @@
 import numpy as np
 
 from foldshell.folding.constraints import Fairness
-from foldshell.folding.exact import measure_residual, project_vertices
+from foldshell.folding.exact import measure_residual
 from foldshell.folding.exact_panels import hold_folded
-from foldshell.folding.isometric import STAGES, STRAIN
-from foldshell.folding.levenberg import minimise_terms
+from foldshell.folding.isometric import STAGES, STRAIN, bend_by_stages, project_lengths
 from foldshell.folding.net import FoldNet
-from foldshell.folding.normal_equations import NormalEquations
 from foldshell.folding.panel_problem import build_net_terms
 from foldshell.folding.placement import measure_rounding, round_as_written
 from foldshell.folding.shape import Shape
@@ -22,24 +20,12 @@ def bend_net(net: FoldNet, start: Start, soft: np.ndarray, target: Target, setti
 
     A net that folds to a plane begins there; one that curls by itself with its soft shape (V, 3) m.
     """
-    vertices, iterations, equations = (soft if start.curls else start.level), 0, None
-    for stretch, attraction, bending, fairness in STAGES:
-        terms = _list_stage(net, start, target, settings, (stretch, attraction, bending, fairness))
-        equations = equations or NormalEquations([t.columns for t in terms], vertices.size)
-        minimum = minimise_terms(
-            terms, vertices, max_iterations=settings.max_iterations,
-            cost_tolerance=settings.tolerance, step_tolerance=1e-9 * target.span,
-            equations=equations,
-        )  # fmt: skip
-        vertices, iterations = minimum.vertices, iterations + minimum.iterations
+    stages = (_list_stage(net, start, target, settings, stage) for stage in STAGES)
+    vertices = soft if start.curls else start.level
+    vertices, iterations = bend_by_stages(stages, vertices, settings, target.span)
     lengths = Stretch(net.facets.edges, net.lengths, 1.0)
-    projected = project_vertices([lengths], vertices)
-    if projected.residual > STRAIN:
-        relaxed = minimise_terms(
-            [lengths], vertices, max_iterations=500, cost_tolerance=0.0, step_tolerance=1e-9
-        )
-        iterations += relaxed.iterations
-        projected = project_vertices([lengths], relaxed.vertices)
+    projected, relaxed = project_lengths(lengths, vertices)
+    iterations += relaxed
     written = round_as_written(projected.vertices, target)
     residual = measure_residual([lengths], written)
     allowed = STRAIN + 64 * measure_rounding(target) / net.reference

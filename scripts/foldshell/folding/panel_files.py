@@ -68,18 +68,25 @@ def describe_panels(result: FoldedPanels) -> QualityRecord:
 
 def panel_arrays(result: FoldedPanels) -> FoldedArrays:
     """Return the contents of folded.npz."""
-    mesh, net = result.mesh, result.net
+    return mesh_arrays(result.mesh, result.net.facets, result.net.facet_panel)
+
+
+def mesh_arrays(mesh: PanelMesh, facets: np.ndarray, facet_panel: np.ndarray) -> FoldedArrays:
+    """Return the contents of folded.npz for panels of any number of corners.
+
+    facets (F, 3) vertices of `mesh`, facet_panel (F,) panel of each, as indices
+    """
     return FoldedArrays(
         vertices=mesh.vertices,
-        facets=net.facets,
+        facets=facets,
         planarity=measure_panel_warp(mesh.vertices, mesh.panels),
-        facet_panel=net.facet_panel,
+        facet_panel=facet_panel,
         panel_starts=mesh.panels.starts,
         panel_corners=mesh.panels.corners,
         edges=mesh.edges,
         edge_kind=number_kinds(mesh.assignments),
         flat=mesh.flat,
-        strain=measure_facet_strain(mesh, net.facets),
+        strain=measure_facet_strain(mesh, facets),
         panel_row=mesh.labels.get("row"),
         panel_place=mesh.labels.get("place"),
     )

@@ -176,6 +176,7 @@ def make_waterbomb(
     number: dict[tuple[int, int], int] = {}
 
     def at(x: int, y: int) -> int:
+        """Return the number of a vertex by its place, a new one where it is met first."""
         return number.setdefault((x, y), len(number))
 
     panels, places = [], []

@@ -7,6 +7,15 @@ from foldshell.files.errors import InputError
 from foldshell.files.whole import read_json, write_json
 from foldshell.records.entry import COUNT, entry
 
+ANGLES = ("sector_angle_deg", "rest_fold_angle_deg")
+"""Of a sheet, also where its columns leave them to the settings."""
+MEASURES = (
+    "volume_m3", "area_m2", "panels", "crease_length_m", "buckling_factor_min",
+    "displacement_vertical_max_m", "utilization_panel_mean_max", "iterations", "cheap_m3",
+    "plan_coverage", "edge_strain_max", "planarity_max", "depth_m", "mesh_subdivisions",
+)  # fmt: skip
+"""What tables say of a candidate, besides its columns."""
+
 
 @dataclass(frozen=True, kw_only=True)
 class CandidateRecord:
@@ -43,6 +52,10 @@ class CandidateRecord:
     geometry: str | None = entry(
         "vertices by 3 and panels by 4, for thumbnails: base64 of 16-bit numbers", left_out=True
     )
+
+    def value_of(self, column: str) -> object:
+        """Return what it has in a column, an angle also where the settings gave it."""
+        return getattr(self, column) if column in ANGLES else self.columns[column]
 
 
 @dataclass(frozen=True, kw_only=True)

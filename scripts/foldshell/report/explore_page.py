@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from foldshell.explore.fronts import find_front, rank_by
 from foldshell.explore.measures import count_broken
-from foldshell.explore.tables import list_variables, name_selected, value_of
+from foldshell.explore.tables import name_selected
 from foldshell.files.whole import Json
 from foldshell.records.candidate import CandidateRecord
 from foldshell.records.summary import SummaryRow
@@ -73,7 +73,7 @@ def make_explore_page(
     contents of slopes.json."""
     kept = rank_by([record for record in records if record.feasible], exploration.aims[0])
     confirmed = list_confirmed(exploration, records, rows)
-    names = [*list_variables(exploration), *DRAWN]
+    names = [*exploration.columns, *DRAWN]
     return render(
         "explore.html",
         title=f"Exploration {exploration.name}",
@@ -156,11 +156,11 @@ def _tabulate_confirmed(confirmed: Sequence[Confirmed]) -> Table | None:
 
 
 def _tabulate(exploration: Exploration, records: Sequence[CandidateRecord]) -> Table:
-    names = list_variables(exploration)
+    names = exploration.columns
     header = [WORDS["candidate"], *(WORDS.get(n, n) for n in (*names, *LISTED)), "state"]
     rows = [
         [
-            record.candidate, *(value_of(record, name) for name in names),
+            record.candidate, *(record.value_of(name) for name in names),
             *(getattr(record, name) for name in LISTED),
             Cell("keeps all limits", "good") if record.feasible
             else Cell(", ".join(record.broken) or record.state, "bad"),
@@ -206,5 +206,5 @@ def _is_text(records: Sequence[CandidateRecord], name: str) -> bool:
 
 
 def _value(record: CandidateRecord, name: str) -> object:
-    value = getattr(record, name) if name in DRAWN else value_of(record, name)
+    value = getattr(record, name) if name in DRAWN else record.value_of(name)
     return float(f"{value:.6g}") if isinstance(value, float) else value

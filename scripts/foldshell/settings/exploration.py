@@ -140,6 +140,11 @@ class Exploration:
     search: Search
 
     @property
+    def columns(self) -> list[str]:
+        """The columns that vary, after the one that the designs of round 0 differ in."""
+        return ["pattern", *(v.name for v in self.variables if v.name != "pattern")]
+
+    @property
     def evaluations(self) -> int:
         """Number of designs that are sized."""
         return self.search.first + self.search.rounds * self.search.batch

@@ -58,8 +58,7 @@ def analyse_classes(
         if found.state != "ok" or share.max() <= 1 or raised == ROUNDS_MAX:
             break
         more = np.where(share > 1, thickness * share * SAFETY, needed)
-        raised_to = np.minimum(np.maximum(needed, more), case.sizing.largest_thickness)
-        needed = round_thickness(raised_to)
+        needed = round_thickness(np.clip(more, needed, case.sizing.largest_thickness))
     verdict, reason, criteria = _judge(found)
     record = ClassesRecord(
         **{one.name: getattr(found, one.name) for one in fields(ShellState)},

@@ -3,19 +3,13 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from foldshell.records.candidate import CandidateRecord
+from foldshell.records.candidate import MEASURES, CandidateRecord
 from foldshell.records.entry import entries
 from foldshell.settings.exploration import Exploration
 from foldshell.settings.stage import flatten, to_plain
 from foldshell.workbook.design import add_notes
 from foldshell.workbook.styles import add_sheet, create_workbook
 from foldshell.workbook.tables import Column, make_column, write_table
-
-_SHOWN = (
-    "volume_m3", "area_m2", "panels", "crease_length_m", "buckling_factor_min",
-    "displacement_vertical_max_m", "utilization_panel_mean_max", "iterations", "cheap_m3",
-    "plan_coverage", "edge_strain_max", "planarity_max", "depth_m",
-)  # fmt: skip
 
 
 def write_explored_workbook(
@@ -26,10 +20,10 @@ def write_explored_workbook(
 ) -> None:
     """Write the sheets best, candidates (one row each) and notes."""
     about = entries(CandidateRecord)
-    names = ["pattern", *(v.name for v in exploration.variables if v.name != "pattern")]
+    names = exploration.columns
     columns = [Column("candidate", "", "text", 11.0)]
     columns += [_column(exploration, name) for name in names]
-    columns += [make_column(about[name]) for name in _SHOWN]
+    columns += [make_column(about[name]) for name in MEASURES]
     columns += [Column("state", "", "text", 16.0), Column("feasible", "", "text", 9.0)]
     columns += [Column("broken", "", "text", 24.0), Column("reason", "", "wrap", 50.0)]
     with create_workbook(path, f"Exploration {exploration.name}") as (book, styles):
@@ -59,9 +53,7 @@ def _column(exploration: Exploration, name: str) -> Column:
 
 
 def _cells(record: CandidateRecord, names: Sequence[str]) -> list[object]:
-    angles = {"sector_angle_deg": record.sector_angle_deg,
-              "rest_fold_angle_deg": record.rest_fold_angle_deg}  # fmt: skip
-    values = [angles.get(name) if name in angles else record.columns[name] for name in names]
-    measures = [getattr(record, name) for name in _SHOWN]
+    values = [record.value_of(name) for name in names]
+    measures = [getattr(record, name) for name in MEASURES]
     ends = [record.state, "yes" if record.feasible else "no", ", ".join(record.broken)]
     return [record.candidate, *values, *measures, *ends, record.reason]

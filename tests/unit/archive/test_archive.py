@@ -182,9 +182,23 @@ def test_surface_files_are_in_the_archive_and_in_a_rerun(study, tmp_path):
     bag = unpack(write(study, tmp_path / "t.zip"), tmp_path / "out")
     assert (bag / "data/given/models/roof.obj").read_text() == "v 0 0 0\n"
     task = prepare_rerun(bag, tmp_path / "again")
-    assert (task.code / "models/roof.obj").is_file() and task.table == "../config/designs.tsv"
+    assert (task.code / "models/roof.obj").is_file() and task.tables == (
+        "designs=../config/designs.tsv",
+    )
     with pytest.raises(InputError, match="not empty"):
         prepare_rerun(bag, tmp_path / "again")
+
+
+def test_a_table_of_loads_that_no_commit_holds_is_named_in_a_rerun(study, tmp_path):
+    """By its place in the archive; the one of the commit stays where it is."""
+    loads = study.project / "my_loads.tsv"
+    loads.write_text("set\tcase\n")
+    tables = [study.project / "designs.tsv", loads]
+    config = {"study": "t", "load_table": "my_loads.tsv", "supports": "config/supports.tsv"}
+    write_archive(tmp_path / "t.zip", study, config, tables, "ab" * 32, DATE, Archive())
+    task = prepare_rerun(unpack(tmp_path / "t.zip", tmp_path / "out"), tmp_path / "again")
+    assert task.tables == ("designs=../config/designs.tsv", "load_table=../config/my_loads.tsv")
+    assert (task.code.parent / "config/my_loads.tsv").is_file()
 
 
 def test_a_surface_file_that_has_changed_or_lies_elsewhere_is_refused(study, tmp_path):
