@@ -23,6 +23,7 @@ from foldshell.workbook.engineering import (
 from foldshell.workbook.history import add_history_sheets
 from foldshell.workbook.panels import FloatArray, IntArray, PanelGrid
 from foldshell.workbook.styles import (
+    LINE_WIDTH,
     Line,
     Styles,
     add_sheet,
@@ -92,7 +93,7 @@ def write_design(path: str | Path, report: DesignReport) -> None:
 
 def _add_summary(book: Any, styles: Styles, report: DesignReport) -> None:
     sheet = add_sheet(book, "summary", landscape=False)
-    for column, width in enumerate((34, 44, 14, 10)):
+    for column, width in enumerate((34, LINE_WIDTH, 14, 10)):
         sheet.set_column(column, column, width)
     sheet.write_string(0, 0, report.title, styles["title"])
     row = write_lines(sheet, styles, 2, report.verdict) + 1

@@ -16,9 +16,11 @@ from foldshell.records.engineering import (
 from foldshell.settings.field import Factors
 from foldshell.workbook.cells import name_column
 from foldshell.workbook.styles import (
+    LINE_HEIGHT,
     Line,
     Styles,
     add_sheet,
+    count_lines,
     create_workbook,
     print_in_blocks,
     write_lines,
@@ -64,7 +66,9 @@ def add_checks(book: Any, styles: Styles, record: EngineeringRecord, title: str)
     sheet = add_sheet(book, "checks")
     sheet.write_string(0, 0, title, styles["title"])
     sheet.write_string(1, 0, record.verdict.replace("_", " "), styles[VERDICTS[record.verdict]])
-    sheet.write_string(2, 0, record.reason, styles["text"])
+    width = sum(column.width for column in CHECK_COLUMNS)
+    sheet.merge_range(2, 0, 2, len(CHECK_COLUMNS) - 1, record.reason, styles["wrap"])
+    sheet.set_row(2, LINE_HEIGHT * count_lines(record.reason, width))
     rows = [_list_cells(one) for one in record.checks.values()]
     first = write_table(sheet, styles, 4, CHECK_COLUMNS, rows)
     for row, one in enumerate(record.checks.values(), start=first):

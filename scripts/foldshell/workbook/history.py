@@ -7,6 +7,7 @@ from typing import Any
 from foldshell.records.analysis import DECIDES
 from foldshell.records.history import HistoryRow
 from foldshell.workbook.styles import (
+    LINE_WIDTH,
     Line,
     Options,
     Styles,
@@ -54,7 +55,7 @@ def write_history(
     with create_workbook(path, "History of the sizing loop") as (book, styles):
         sheet = add_sheet(book, "summary", landscape=False)
         sheet.set_column(0, 0, 34)
-        sheet.set_column(1, 1, 44)
+        sheet.set_column(1, 1, LINE_WIDTH)
         sheet.set_column(2, 2, 10)
         sheet.write_string(0, 0, "History of the sizing loop", styles["title"])
         write_lines(sheet, styles, 2, summary)

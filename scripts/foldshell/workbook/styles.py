@@ -29,6 +29,8 @@ CELL_MARGIN = 0.8
 """Room beside the characters of a cell, in characters."""
 LINE_HEIGHT, HEADER_SHARE = 13.5, 1.2
 """Height of a line in points, and the room that a bold character of a header takes."""
+LINE_WIDTH, LONG = 44.0, 48
+"""Width of the values of a summary sheet, and the characters from which a text is wrapped there."""
 Options = dict[str, object]
 """Options of XlsxWriter."""
 _FORMATS: dict[str, Options] = {
@@ -195,6 +197,12 @@ def write_value(sheet: Worksheet, row: int, column: int, value: Any, style: Form
         sheet.write_string(row, column, str(value), style)
 
 
+def count_lines(text: str, width: float) -> int:
+    """Return the lines of a wrapped text in a column `width` characters wide; not every program
+    finds the height of a row out itself."""
+    return max(math.ceil(1.1 * len(text) / width), 1)
+
+
 @dataclass(frozen=True)
 class Line:
     """A labelled value of a summary sheet; one that is `judged` is coloured by what it says."""
@@ -220,12 +228,18 @@ def make_lines(record: Any, keys: Iterable[str] | None = None) -> list[Line]:
 
 
 def write_lines(sheet: Worksheet, styles: Styles, row: int, lines: Iterable[Line]) -> int:
-    """Write label, value and unit in three columns, from `row` on; return the next free row."""
+    """Write label, value and unit in three columns, from `row` on; return the next free row.
+
+    A long text is wrapped: running on, it would make the printed sheet as wide as itself.
+    """
     for line in lines:
         number = isinstance(line.value, int | float) and not isinstance(line.value, bool)
         style = styles[f"{choose_style(line.value)}_left"]
         if line.judged:
             style = styles.choose_verdict(str(line.value or ""))
+        elif isinstance(line.value, str) and len(line.value) > LONG:
+            style = styles["wrap"]
+            sheet.set_row(row, LINE_HEIGHT * count_lines(line.value, LINE_WIDTH))
         sheet.write_string(row, 0, line.words, styles["label"])
         write_value(sheet, row, 1, line.value, style)
         sheet.write_string(row, 2, line.unit if number else "", styles["unit_text"])

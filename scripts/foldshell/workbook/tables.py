@@ -1,6 +1,5 @@
 """Tables of rows on sheets: columns with units, from the fields of a record or made by hand."""
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -11,6 +10,7 @@ from foldshell.workbook.styles import (
     JUDGED,
     LINE_HEIGHT,
     Styles,
+    count_lines,
     print_in_blocks,
     write_header,
     write_value,
@@ -100,9 +100,9 @@ def write_table(
 
 
 def _count_lines(columns: Sequence[Column], cells: Sequence[Any]) -> int:
-    """Return the lines that the wrapped texts of a row need; not every program finds out itself."""
+    """Return the lines that the wrapped texts of a row need."""
     needed = [
-        math.ceil(1.1 * len(str(value or "")) / column.width)
+        count_lines(str(value or ""), column.width)
         for column, value in zip(columns, cells, strict=True)
         if column.style == "wrap"
     ]

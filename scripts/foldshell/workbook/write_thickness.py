@@ -10,6 +10,7 @@ from foldshell.sizing.panel_limits import PanelLimits
 from foldshell.sizing.rounding import round_thickness
 from foldshell.workbook.panels import FloatArray, ThicknessTable
 from foldshell.workbook.styles import (
+    LINE_WIDTH,
     Line,
     Styles,
     add_sheet,
@@ -68,7 +69,7 @@ def write_thickness(
     with create_workbook(path, "Thickness of the panels") as (book, styles):
         sheet = add_sheet(book, "summary", landscape=False)
         sheet.set_column(0, 0, 34)
-        sheet.set_column(1, 1, 44)
+        sheet.set_column(1, 1, LINE_WIDTH)
         sheet.set_column(2, 2, 10)
         sheet.write_string(0, 0, "Thickness of the panels", styles["title"])
         row = write_lines(sheet, styles, 2, summary)

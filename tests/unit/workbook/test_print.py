@@ -3,7 +3,19 @@
 import re
 import zipfile
 
-from foldshell.workbook.styles import Styles, create_workbook, print_in_blocks, write_header
+import openpyxl
+
+from foldshell.workbook.styles import (
+    LINE_HEIGHT,
+    LINE_WIDTH,
+    Line,
+    Styles,
+    add_sheet,
+    create_workbook,
+    print_in_blocks,
+    write_header,
+    write_lines,
+)
 
 
 def read_sheet(path):
@@ -30,3 +42,15 @@ def test_header_is_as_high_as_its_lines(tmp_path):
         write_header(book.add_worksheet("panels"), styles, 0, columns)
     height = float(re.search(r'<row r="1"[^>]* ht="([\d.]+)"', read_sheet(tmp_path / "a.xlsx"))[1])
     assert height >= 2 * 13.5
+
+
+def test_a_long_reason_is_wrapped_and_has_the_room(tmp_path):
+    """Running on, it would make the sheet so wide that nothing on its page could be read."""
+    path = tmp_path / "a.xlsx"
+    with create_workbook(path, "a") as (book, styles):
+        sheet = add_sheet(book, "summary", landscape=False)
+        write_lines(sheet, styles, 2, [Line("reason", "x " * 450), Line("state", "converged")])
+    sheet = openpyxl.load_workbook(path)["summary"]
+    assert sheet["B3"].alignment.wrap_text and not sheet["B4"].alignment.wrap_text
+    assert sheet.row_dimensions[3].height >= 900 / LINE_WIDTH * LINE_HEIGHT
+    assert sheet.row_dimensions[4].height in (None, 15)
