@@ -65,14 +65,20 @@ def _area(corners):
         ({}, {"plan_coverage_min": 1.05}, "sized", "plan_coverage_min"),
         ({}, {"buckling_factor_min": 100.0}, "sized", "buckling_factor_min"),
         ({"sector_angle_deg": 30.0, "rest_fold_angle_deg": 0.0}, {}, "not_reached", ""),
-        ({"sector_angle_deg": 6.0, "rest_fold_angle_deg": 85.0}, {}, None, ""),
+        ({"sector_angle_deg": 6.0, "rest_fold_angle_deg": 85.0}, {}, "not_reached", ""),
+        (
+            {"sector_angle_deg": 88.0, "rest_fold_angle_deg": 85.0, "height_m": 12.0},
+            {},
+            "crumpled",
+            "",
+        ),
     ],
 )
 def test_what_fails_is_a_row_with_its_reason(changed, limits, state, said):
     row = {"design": "x", **make_design_row(**changed)}
     record = evaluate("01-00", row, STAGE, exploration(**limits))
     assert not record.feasible and record.reason
-    assert state is None or record.state == state
+    assert record.state == state
     assert said in record.broken or not said
 
 
