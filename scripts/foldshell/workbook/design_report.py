@@ -121,10 +121,9 @@ def _list_headlines(last: AnalysisRecord) -> list[Line]:
 
 
 def _describe_design(design: Design) -> list[Line]:
+    """Return the columns of a design that say something."""
     row = make_design_row(design.to_row())
-    beam = ("edge_beam_depth_m", "edge_beam_thickness_m")
-    keys = [key for key in entries(DesignRow) if key not in beam or getattr(row, key)]
-    return make_lines(row, keys)
+    return make_lines(row, [key for key in entries(DesignRow) if getattr(row, key)])
 
 
 def _list_loads(settings: StageSettings) -> list[Line]:
