@@ -94,7 +94,7 @@ _FORMATS: dict[str, Options] = {
     "plain": {"bold": True, "indent": 1, "align": "left"},
 }
 _CONDITIONAL = {"above": {"font_color": "#9F1239", "bg_color": "#FFE4E6"}}
-GOOD_VERDICTS = ("converged", "at_minimum_thickness", "pass", "passes", "yes", "ok")
+GOOD_VERDICTS = ("converged", "at_minimum_thickness", "pass", "passes", "sized", "yes", "ok")
 JUDGED = ("state", "verdict", "crosscheck", "engineering")
 """Keys whose values are good or bad endings."""
 _OPEN_VERDICTS = ("continue", "not analysed yet", "not_applicable", "")
