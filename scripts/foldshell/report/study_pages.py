@@ -8,8 +8,8 @@ from foldshell.records.summary import SummaryRow
 from foldshell.records.table import read_rows
 from foldshell.report.markdown import render_markdown
 from foldshell.report.markup import Cell, Table, make_table, render
+from foldshell.report.study_columns import judge
 from foldshell.settings.stage import StageSettings, flatten
-from foldshell.workbook.styles import GOOD_VERDICTS
 
 JUDGED = ("state", "crosscheck")
 """Columns whose words are good or bad."""
@@ -70,15 +70,8 @@ def _make_cell(row: SummaryRow, about: Entry) -> Cell:
     if value is not None and _is_number(about):
         return Cell(about.factor * value)
     text = str(value or "")
-    kind = _judge(text) if about.key in JUDGED else "number" if _is_number(about) else ""
+    kind = judge(text) if about.key in JUDGED else "number" if _is_number(about) else ""
     return Cell(text.replace("_", " ") or "–", kind)
-
-
-def _judge(text: str) -> str:
-    """Return the class of a verdict; to have none is neither good nor bad."""
-    if text in ("", "not possible"):
-        return ""
-    return "good" if text in GOOD_VERDICTS else "bad"
 
 
 def write_markdown_page(title: str, text: str) -> str:
