@@ -3,7 +3,8 @@
 Gaussian process with Matern 5/2 kernel on the logarithm of the aims (Rasmussen and Williams 2006,
 Gaussian Processes for Machine Learning), expected improvement (Jones, Schonlau and Welch 1998)
 times the probability that limits are kept (Gardner et al. 2014), batches by believing the model's
-mean (Ginsbourger, Le Riche and Carraro 2010); two aims by the expected gain of hypervolume.
+mean (Ginsbourger, Le Riche and Carraro 2010); two aims by the expected gain of the dominated area
+(Emmerich, Deutz and Klinkenberg 2011). What columns tell (numbers of panels) is no model's affair.
 """
 
 import warnings
@@ -12,15 +13,15 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foldshell.explore.measures import BOUNDS
+from foldshell.explore.found import Found, gather
+from foldshell.explore.gains import expect_front_gain, expect_improvement
 from foldshell.records.candidate import CandidateRecord
-from foldshell.settings.exploration import AIMS, Exploration
+from foldshell.settings.exploration import Exploration
 
 POOL = 1024
 NEAR = 256
 """Points of the pool: spread over the box, and near the best designs."""
 SPREAD = 0.08
-DRAWS = 64
 
 
 @dataclass(frozen=True)
@@ -40,17 +41,6 @@ def spread_points(exploration: Exploration, count: int, skip: int = 0) -> np.nda
         if skip:
             sequence.fast_forward(skip)
         return sequence.random(count)
-
-
-def to_columns(exploration: Exploration, point: np.ndarray) -> dict[str, float | int | str]:
-    """Return the values of the variables at a point (d,) in ranges, from 0 to 1; no unit."""
-    pairs = zip(exploration.variables, point, strict=True)
-    return {variable.name: variable.to_value(float(share)) for variable, share in pairs}
-
-
-def to_point(exploration: Exploration, record: CandidateRecord) -> np.ndarray:
-    """Return the point (d,) of a candidate, no unit; wholes and choices in the middle of a part."""
-    return np.array([v.to_share(record.columns[v.name]) for v in exploration.variables])
 
 
 def snap(exploration: Exploration, points: np.ndarray) -> np.ndarray:
@@ -81,85 +71,6 @@ def fit_process(points: np.ndarray, values: np.ndarray, seed: int) -> Model:
     return Model(lambda where: process.predict(where, return_std=True))
 
 
-def expect_improvement(mean: np.ndarray, deviation: np.ndarray, best: float) -> np.ndarray:
-    """EI = s (z Phi(z) + phi(z)), z = (best - mean) / s: of a value that is to be small.
-
-    mean, deviation (k,) in the unit of `best`
-    """
-    from scipy.special import ndtr
-
-    deviation = np.maximum(deviation, 1e-12)
-    z = (best - mean) / deviation
-    return deviation * (z * ndtr(z) + np.exp(-z * z / 2) / np.sqrt(2 * np.pi))
-
-
-def hypervolume(front: np.ndarray, corner: np.ndarray) -> float:
-    """Area (of the unit of both aims) that points (k, 2) dominate below a corner (2,)."""
-    kept = front[(front < corner).all(axis=1)]
-    area, height = 0.0, corner[1]
-    for x, y in kept[np.argsort(kept[:, 0], kind="stable")]:
-        if y < height:
-            area += (corner[0] - x) * (height - y)
-            height = y
-    return area
-
-
-@dataclass(frozen=True)
-class Found:
-    """What a search knows: points (k, d), aims (k, m) as logarithms to be made small (nan where
-    there are none), which are feasible (k,), logarithms of the cheap answers (k,)."""
-
-    points: np.ndarray
-    aims: np.ndarray
-    feasible: np.ndarray
-    cheap: np.ndarray
-    margins: np.ndarray
-
-
-def gather(exploration: Exploration, records: Sequence[CandidateRecord]) -> Found:
-    """Return what the candidates within the box came to, as arrays."""
-    inside = [record for record in records if _is_inside(exploration, record)]
-    size, count = len(exploration.variables), len(exploration.aims)
-    points = np.array([to_point(exploration, record) for record in inside]).reshape(-1, size)
-    aims = np.array([[_aim(record, aim) for aim in exploration.aims] for record in inside])
-    cheap = np.log([record.cheap_m3 or np.nan for record in inside]).reshape(-1)
-    margins = np.array([_margins(exploration, record) for record in inside])
-    feasible = np.array([record.feasible for record in inside], dtype=bool)
-    return Found(points, aims.reshape(-1, count), feasible, cheap,
-                 margins.reshape(-1, len(BOUNDS)))  # fmt: skip
-
-
-def _is_inside(exploration: Exploration, record: CandidateRecord) -> bool:
-    for variable in exploration.variables:
-        value = record.columns[variable.name]
-        known = str(value) in variable.choices if variable.choices else True
-        if not known or not (variable.choices or variable.low <= float(value) <= variable.high):
-            return False
-    return all(
-        record.columns[key] == value
-        for key, value in exploration.base.items()
-        if key not in {variable.name for variable in exploration.variables}
-    )
-
-
-def _aim(record: CandidateRecord, aim: str) -> float:
-    value = getattr(record, aim)
-    if value is None or value <= 0:
-        return np.nan
-    return AIMS[aim] * float(np.log(value))
-
-
-def _margins(exploration: Exploration, record: CandidateRecord) -> list[float]:
-    """Return by how much each limit is kept, 0 at the limit; relative where it is not 0."""
-    found = []
-    for name, (key, sign) in BOUNDS.items():
-        value, limit = getattr(record, key), getattr(exploration.limits, name)
-        scale = limit or 1.0
-        found.append(np.nan if value is None else float(np.clip(sign * (value - limit) / scale,
-                                                                 -2, 2)))  # fmt: skip
-    return found
-
-
 def propose_points(
     exploration: Exploration, records: Sequence[CandidateRecord], number: int, count: int
 ) -> np.ndarray:
@@ -183,10 +94,22 @@ def make_pool(exploration: Exploration, found: Found, number: int) -> np.ndarray
     size, seed = len(exploration.variables), exploration.search.seed + 1000 * number
     spread = qmc.Sobol(size, seed=seed).random(POOL)
     chance = np.random.default_rng(seed)
-    order = np.argsort(np.where(found.feasible, 0, 10) + np.nan_to_num(found.aims[:, 0], nan=20))
-    best = found.points[order[:4]]
+    best = found.points[_find_best(found)]
     near = best[chance.integers(len(best), size=NEAR)] + chance.normal(0, SPREAD, (NEAR, size))
     return np.vstack([spread, np.clip(near, 0, 1)])
+
+
+def _find_best(found: Found) -> np.ndarray:
+    """Return the rows of the best designs: the four best of one aim, of two the front."""
+    order = np.argsort(np.where(found.feasible, 0, 10) + np.nan_to_num(found.aims[:, 0], nan=20))
+    if found.aims.shape[1] == 1:
+        return order[:4]
+    least, front = np.inf, []
+    for row in order[found.feasible[order]]:
+        if found.aims[row, 1] < least:
+            least = found.aims[row, 1]
+            front.append(row)
+    return np.array(front) if front else order[:4]
 
 
 def choose_batch(
@@ -214,7 +137,7 @@ def choose_batch(
 def _shift(found: Found, column: int, cheap: np.ndarray | None) -> tuple[np.ndarray, Callable]:
     """Return which rows are known, and the mean that the cheap answers give, by least squares."""
     known = np.isfinite(found.aims[:, column])
-    if cheap is None or column:
+    if cheap is None or not found.leads[column]:
         return known, lambda logs: np.zeros(len(logs))
     known &= np.isfinite(found.cheap)
     slope, start = np.polyfit(found.cheap[known], found.aims[known, column], 1)
@@ -227,6 +150,8 @@ def predict_aim(
     found: Found, pool: np.ndarray, column: int, seed: int, cheap: np.ndarray | None
 ) -> tuple[np.ndarray, np.ndarray]:
     """Return mean and deviation (k,) of the logarithm of one aim at a pool (k, d); no unit."""
+    if column in found.told:
+        return found.told[column](pool), np.zeros(len(pool))
     known, mean_of = _shift(found, column, cheap)
     rest = found.aims[known, column] - mean_of(found.cheap[known])
     mean, deviation = fit_process(found.points[known], rest, seed).predict(pool)
@@ -246,22 +171,7 @@ def expect_gain(
         return expect_improvement(*told[0], float(best))
     corner = found.aims[known].max(axis=0) + 0.1
     front = kept if len(kept) else np.empty((0, 2))
-    return _expect_front(told, front, corner, seed)
-
-
-def _expect_front(told, front: np.ndarray, corner: np.ndarray, seed: int) -> np.ndarray:
-    from scipy.stats import norm, qmc
-
-    normal = norm.ppf(np.clip(qmc.Sobol(2, seed=seed).random(DRAWS), 1e-6, 1 - 1e-6))
-    now = hypervolume(front, corner)
-    (mean_x, deviation_x), (mean_y, deviation_y) = told
-    promising = np.argsort(mean_x + mean_y - deviation_x - deviation_y)[:NEAR]
-    gain = np.zeros(len(mean_x))
-    for place in promising:
-        drawn = np.column_stack([mean_x[place] + normal[:, 0] * deviation_x[place],
-                                 mean_y[place] + normal[:, 1] * deviation_y[place]])  # fmt: skip
-        gain[place] = np.mean([hypervolume(np.vstack([front, one]), corner) for one in drawn]) - now
-    return gain
+    return expect_front_gain(*told, front, corner)
 
 
 def keep_probability(found: Found, pool: np.ndarray, seed: int) -> np.ndarray:
@@ -291,4 +201,6 @@ def believe(found: Found, point: np.ndarray, seed: int, cheap: float | None) -> 
         np.append(found.feasible, True),
         np.append(found.cheap, np.nan if cheap is None else cheap),
         np.vstack([found.margins, missing]),
+        found.leads,
+        found.told,
     )

@@ -5,9 +5,10 @@ from collections.abc import Sequence
 import numpy as np
 
 from foldshell.explore.evaluate import screen
+from foldshell.explore.found import gather, to_columns, to_point
 from foldshell.explore.fronts import find_front, rank_by
 from foldshell.explore.names import name_candidate
-from foldshell.explore.propose import choose_batch, gather, propose_points, to_columns, to_point
+from foldshell.explore.propose import choose_batch, propose_points
 from foldshell.explore.slopes import find_slopes, size_state
 from foldshell.records.candidate import CandidateRecord, ScreenedRecord
 from foldshell.settings.exploration import Exploration

@@ -1,18 +1,16 @@
 """Proposals: improvement and hypervolume against closed forms, searches with a known answer."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy import integrate, stats
 
+from foldshell.explore.found import gather, to_columns
 from foldshell.explore.fronts import find_front, rank_by
+from foldshell.explore.gains import expect_front_gain, expect_improvement, hypervolume
 from foldshell.explore.measures import find_broken
-from foldshell.explore.propose import (
-    expect_improvement,
-    hypervolume,
-    propose_points,
-    spread_points,
-    to_columns,
-)
+from foldshell.explore.propose import propose_points, spread_points
 from foldshell.records.candidate import CandidateRecord
 from foldshell.settings.exploration import Exploration, Search, SearchLimits, Variable
 
@@ -51,6 +49,29 @@ def test_hypervolume_is_the_area_of_a_staircase():
     front = np.array([[1.0, 1.0], [0.0, 3.0], [1.5, 2.0], [9.0, 0.0]])
     assert hypervolume(front, np.array([3.0, 4.0])) == pytest.approx(2 * 3 + 1 * 1)
     assert hypervolume(np.empty((0, 2)), np.array([1.0, 1.0])) == 0
+
+
+@pytest.mark.parametrize("mean", [(0.5, 0.5), (1.2, 1.8), (-1.0, 2.9)])
+@pytest.mark.parametrize("deviation", [(0.4, 0.7), (0.3, 0.0), (0.0, 0.0)])
+def test_expected_gain_of_area_is_its_mean(mean, deviation):
+    """E of the area that a normal point adds, against 20,000 draws (their error: 1 % of 3 s)."""
+    front, corner = np.array([[1.0, 1.0], [0.0, 2.0], [1.5, 2.0], [0.5, 1.6]]), np.array([2.5, 3.0])
+    drawn = np.random.default_rng(3).normal(mean, deviation, (20_000, 2))
+    now = hypervolume(front, corner)
+    gains = [hypervolume(np.vstack([front, one]), corner) - now for one in drawn]
+    told = [(np.array([m]), np.array([d])) for m, d in zip(mean, deviation, strict=True)]
+    error = 4 * np.std(gains) / np.sqrt(len(gains)) + 1e-9
+    assert expect_front_gain(*told, front, corner)[0] == pytest.approx(np.mean(gains), abs=error)
+
+
+def test_panels_are_counted_and_no_model_is_asked():
+    given = replace(exploration(("volume_m3", "panels")), base={"zigzag": 7, "strip": 9})
+    given = replace(given, variables=(*TWO, Variable("zigzag", 5.0, 9.0, whole=True)))
+    (count,) = gather(given, []).told.values()
+    points = np.array([[0.0, 0.0, 0.1], [1.0, 0.3, 0.9]])
+    np.testing.assert_allclose(np.exp(count(points)), [4 * 8, 8 * 8])
+    other = replace(given, base={"pattern": "yoshimura", "zigzag": 7, "strip": 9})
+    assert not gather(other, []).told
 
 
 def test_an_even_spread_goes_on_where_it_stopped():
