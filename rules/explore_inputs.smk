@@ -1,7 +1,10 @@
 # The exploration of the settings: its rounds, and what each of them reads.
 
 from foldshell.settings.design import Design
-from foldshell.settings.exploration import read_exploration
+from foldshell.settings.exploration import list_sizing
+from foldshell.settings.exploration_check import settle_exploration
+from foldshell.settings.exploration_file import read_exploration
+from foldshell.settings.stages import search_parameters
 from foldshell.settings.study import NO_EXPLORATION
 from foldshell.explore.names import list_references, name_candidate
 
@@ -9,6 +12,7 @@ from foldshell.explore.names import list_references, name_candidate
 def read_searched():
     """Return the exploration of the settings and the rows of its round 0."""
     found = read_exploration(SETTINGS.exploration, SETTINGS.defaults)
+    found = settle_exploration(found, SETTINGS, SETTINGS.exploration)
     return found, list_references(found, DESIGNS)
 
 
@@ -19,8 +23,8 @@ EXPLORED = f"{RESULTS}/explorations/{EXPLORATION.name}"
 ROUNDS = EXPLORATION.search.rounds + 1
 SEARCH = {
     "exploration": EXPLORATION.to_plain(),
-    "settings": stage_parameters(
-        SETTINGS, "study", Design.from_row({"design": "base", "tags": "", **EXPLORATION.base})
+    "settings": search_parameters(
+        SETTINGS, Design.from_row({"design": "base", "tags": "", **EXPLORATION.base})
     ),
 }
 

@@ -15,8 +15,7 @@ rule confirm:
     params:
         snakefile=f"{HOME}/Snakefile",
         folder=lambda wildcards: f"{EXPLORED}/confirmed",
-        rule=EXPLORATION.search.rule,
-        factor=EXPLORATION.limits.buckling_factor_min,
+        sizing=list_sizing(EXPLORATION, SETTINGS.sizing),
         config=parse_group(type(SETTINGS), config),
     message:
         f"exploration {EXPLORATION.name}: the best by the ordinary rules"

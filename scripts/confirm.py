@@ -19,19 +19,17 @@ def main(
     *,
     snakefile: str | Path,
     folder: str | Path,
-    rule: str,
-    factor: float,
+    sizing: Plain,
     config: Plain,
     cores: int,
 ) -> None:
     """Run the workflow for the table of selected designs in a folder of its own; copy its summary.
 
-    Settings are those of this run, with rule and buckling factor of the search. Without a selected
-    design the summary is empty.
+    Settings are those of this run, with `sizing` of the search in place of its own: rule, measure,
+    buckling factor. Without a selected design the summary is empty.
     """
     if len(Path(selected_path).read_text(encoding="utf-8").splitlines()) < 2:
         return write_text_if_changed(summary_path, "")
-    sizing = {"rule": rule, "thinning_buckling_factor_min": factor}
     more = {"designs": str(selected_path), "results": str(folder), "study": "found"}
     more |= {"exploration": "none", "loop": "whole", "sizing": config.get("sizing", {}) | sizing}
     settings = Path(f"{folder}.yaml")

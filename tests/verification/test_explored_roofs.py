@@ -15,13 +15,14 @@ from dataclasses import replace
 
 from scipy.stats import spearmanr
 
-from foldshell.explore.evaluate import evaluate, make_design
+from foldshell.explore.evaluate import evaluate
+from foldshell.explore.folded import make_design
 from foldshell.explore.rounds import propose_round
 from foldshell.settings.config_file import read_config
-from foldshell.settings.exploration import read_exploration
+from foldshell.settings.exploration_file import read_exploration
 from foldshell.settings.make import make_settings
 from foldshell.settings.stage import read_stage
-from foldshell.settings.stages import SEARCHED, stage_parameters
+from foldshell.settings.stages import SEARCHED, search_parameters
 
 CONFIG = Path(__file__).parents[2] / "config"
 
@@ -31,7 +32,7 @@ def search(name, seed):
     found = read_exploration(CONFIG / f"explorations/{name}.yaml", settings.defaults)
     found = replace(found, search=found.search.changed(seed=seed))
     design = make_design(found.base)
-    stage = read_stage(stage_parameters(settings, "study", design), *SEARCHED)
+    stage = read_stage(search_parameters(settings, design), *SEARCHED)
     records = []
     for number in range(1, found.search.rounds + 2):
         rows, _ = propose_round(found, records, number, stage)

@@ -8,11 +8,14 @@ import numpy as np
 
 from foldshell.explore.measures import BOUNDS
 from foldshell.records.candidate import CandidateRecord
-from foldshell.settings.design import GRID_PATTERNS, NONE
-from foldshell.settings.exploration import AIMS, Exploration
+from foldshell.settings.design import GRID_PATTERNS, NONE, PARAMETERS
+from foldshell.settings.exploration import AIMS, ALL_PARAMETERS, SPAN_RATIO, Exploration
 
 LEADS = ("volume_m3", "engineering_volume_m3", "steel_kg", "co2_kg", "cost")
 """Aims that go with the cheap answer."""
+MIDDLE = 0.5
+"""Where a point stands in a variable that its pattern does not have."""
+SIDES = ("span_m", "span_x_m", "span_y_m")
 
 
 def to_columns(exploration: Exploration, point: np.ndarray) -> dict[str, float | int | str]:
@@ -22,8 +25,22 @@ def to_columns(exploration: Exploration, point: np.ndarray) -> dict[str, float |
 
 
 def to_point(exploration: Exploration, record: CandidateRecord) -> np.ndarray:
-    """Return the point (d,) of a candidate, no unit; wholes and choices in the middle of a part."""
-    return np.array([v.to_share(record.columns[v.name]) for v in exploration.variables])
+    """Return the point (d,) of a candidate, no unit; wholes and choices in the middle of a part,
+    what its pattern does not have in the middle."""
+    silent = find_silent(record.columns.get("pattern"))
+    return np.array([
+        MIDDLE if v.name in silent else v.to_share(_value(record, v.name))
+        for v in exploration.variables
+    ])  # fmt: skip
+
+
+def find_silent(pattern: object) -> set[str]:
+    """Return the columns that a pattern does not have, none where it is not known."""
+    return set(ALL_PARAMETERS) - set(PARAMETERS.get(str(pattern), ())) if pattern else set()
+
+
+def _value(record: CandidateRecord, name: str) -> object:
+    return record.value_of(name) if name == SPAN_RATIO else record.columns[name]
 
 
 @dataclass(frozen=True)
@@ -77,15 +94,19 @@ def _count_panels(exploration: Exploration, points: np.ndarray) -> np.ndarray:
 
 
 def _is_inside(exploration: Exploration, record: CandidateRecord) -> bool:
+    silent = find_silent(record.columns.get("pattern"))
     for variable in exploration.variables:
-        value = record.columns[variable.name]
+        if variable.name in silent:
+            continue
+        value = _value(record, variable.name)
         known = str(value) in variable.choices if variable.choices else True
         if not known or not (variable.choices or variable.low <= float(value) <= variable.high):
             return False
+    free = {variable.name for variable in exploration.variables}
+    free |= set(SIDES) if SPAN_RATIO in free else set()
+    free |= silent if "pattern" in free else set()
     return all(
-        record.columns[key] == value
-        for key, value in exploration.base.items()
-        if key not in {variable.name for variable in exploration.variables}
+        record.columns[key] == value for key, value in exploration.base.items() if key not in free
     )
 
 

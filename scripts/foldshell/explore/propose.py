@@ -13,7 +13,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foldshell.explore.found import Found, gather
+from foldshell.explore.found import MIDDLE, Found, find_silent, gather
 from foldshell.explore.gains import expect_front_gain, expect_improvement
 from foldshell.records.candidate import CandidateRecord
 from foldshell.settings.exploration import Exploration
@@ -44,12 +44,19 @@ def spread_points(exploration: Exploration, count: int, skip: int = 0) -> np.nda
 
 
 def snap(exploration: Exploration, points: np.ndarray) -> np.ndarray:
-    """Return points (k, d), no unit, where columns put them: wholes in the middle of a part."""
+    """Return points (k, d), no unit, where columns put them: wholes in the middle of a part, what
+    a pattern does not have in the middle."""
     snapped = points.copy()
+    names = [variable.name for variable in exploration.variables]
     for place, variable in enumerate(exploration.variables):
         if variable.whole or variable.choices:
             values = [variable.to_value(float(share)) for share in points[:, place]]
             snapped[:, place] = [variable.to_share(value) for value in values]
+    if "pattern" in names:
+        chosen = exploration.variables[names.index("pattern")]
+        for point in snapped:
+            silent = find_silent(chosen.to_value(float(point[names.index("pattern")])))
+            point[[place for place, name in enumerate(names) if name in silent]] = MIDDLE
     return snapped
 
 

@@ -12,13 +12,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foldshell.explore.evaluate import (
-    FoldedCandidate,
-    choose_settings,
-    fold_candidate,
-    make_design,
-    prepare_case,
-)
+from foldshell.explore.evaluate import choose_settings, prepare_case
+from foldshell.explore.folded import FoldedCandidate, fold_candidate, make_design
 from foldshell.settings.exploration import Exploration, Variable
 from foldshell.settings.field import Plain
 from foldshell.settings.stage import StageSettings
@@ -85,7 +80,7 @@ def size_state(
 ) -> SizedState:
     """Size a design and find what holds it; raises `ValueError` where it cannot be sized."""
     settings = tighten(choose_settings(settings, exploration))
-    folded = fold_candidate(make_design(dict(columns)), settings)
+    folded = fold_candidate(make_design(dict(columns), exploration.supports), settings)
     case = prepare_case(folded, settings, exploration.search.subdivisions)
     loop = run_loop(case, folded.design.span, settings.sizing)
     if loop.final.state != "ok":
@@ -151,7 +146,7 @@ def respond(
     The sheet is folded anew; raises `ValueError` where there is no such sheet, or no state.
     """
     settings = tighten(choose_settings(settings, exploration))
-    folded = fold_candidate(make_design(dict(columns)), settings)
+    folded = fold_candidate(make_design(dict(columns), exploration.supports), settings)
     case = prepare_case(folded, settings, exploration.search.subdivisions)
     done = _analyse(case, folded, state.thickness)
     known, sizing = state.constraints, settings.sizing

@@ -9,12 +9,13 @@ from foldshell.explore.fronts import find_front, rank_by
 from foldshell.explore.measures import count_broken
 from foldshell.files.errors import InputError
 from foldshell.files.whole import write_text_if_changed
-from foldshell.records.candidate import MEASURES, CandidateRecord
+from foldshell.records.candidate import CandidateRecord, list_measures
 from foldshell.settings.design import COLUMNS, DesignColumns
 from foldshell.settings.exploration import Exploration
 from foldshell.settings.field import Plain, list_settings
 
 ENDS = ("state", "feasible", "broken", "reason")
+JUDGED = ("engineering", "engineering_reason")
 
 
 def write_candidates(path: str | Path, rows: Sequence[Plain]) -> None:
@@ -43,12 +44,14 @@ def _write(value: object) -> str:
 def tabulate(exploration: Exploration, records: Sequence[CandidateRecord]) -> list[list[object]]:
     """Return a header and a row a candidate: name, variables, measures, ends."""
     variables = exploration.columns
-    header: list[object] = ["candidate", *variables, *MEASURES, *ENDS]
+    ends = (*ENDS, *JUDGED) if exploration.needs_engineering else ENDS
+    names = (*list_measures(exploration.needs_engineering), *ends)
+    header: list[object] = ["candidate", *variables, *names]
     rows = [
         [
             record.candidate,
             *(record.value_of(name) for name in variables),
-            *(getattr(record, name) for name in (*MEASURES, *ENDS)),
+            *(getattr(record, name) for name in names),
         ]
         for record in sorted(records, key=lambda record: record.candidate)
     ]
@@ -68,7 +71,9 @@ def write_design_explorer(
 ) -> None:
     """Write the candidates that have a volume as Design Explorer reads them: `in:` and `out:`."""
     variables = exploration.columns
-    numbers = [name for name in MEASURES if name != "mesh_subdivisions"]
+    numbers = [
+        name for name in list_measures(exploration.needs_engineering) if name != "mesh_subdivisions"
+    ]
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow([*(f"in:{name}" for name in variables), *(f"out:{name}" for name in numbers)])

@@ -6,6 +6,7 @@ from pathlib import Path
 from foldshell.files.errors import InputError
 from foldshell.files.whole import read_json, write_json
 from foldshell.records.entry import COUNT, entry
+from foldshell.settings.exploration import SPAN_RATIO
 
 ANGLES = ("sector_angle_deg", "rest_fold_angle_deg")
 """Of a sheet, also where its columns leave them to the settings."""
@@ -15,6 +16,10 @@ MEASURES = (
     "plan_coverage", "edge_strain_max", "planarity_max", "depth_m", "mesh_subdivisions",
 )  # fmt: skip
 """What tables say of a candidate, besides its columns."""
+ENGINEERED = ("engineering_volume_m3", "steel_kg", "co2_kg", "cost")
+"""The same of one that the engineering checks have seen."""
+SIZED = "sized"
+"""State of a candidate that ended as Table 3 of the paper asks."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -48,14 +53,34 @@ class CandidateRecord:
     displacement_vertical_max_m: float | None = entry("largest downward", "m", left_out=True)
     utilization_panel_mean_max: float | None = entry("largest panel mean", "-", left_out=True)
     iterations: int | None = entry("analyses of the loop", COUNT, left_out=True)
+    engineering: str | None = entry(
+        "engineering verdict, no error of the mesh taken off; where aims or limits ask for it",
+        left_out=True,
+    )
+    engineering_reason: str | None = entry("why, in words", left_out=True)
+    engineering_volume_m3: float | None = entry(
+        "concrete and steel of a shell sized by measure reinforced", "m3", left_out=True
+    )
+    steel_kg: float | None = entry("reinforcement with least steel", "kg", left_out=True)
+    co2_kg: float | None = entry("CO2 equivalent of concrete, steel, folds", "kg", left_out=True)
+    cost: float | None = entry("by the prices of the settings", left_out=True)
     mesh_subdivisions: int = entry("subdivisions of a facet edge", COUNT)
     geometry: str | None = entry(
         "vertices by 3 and panels by 4, for thumbnails: base64 of 16-bit numbers", left_out=True
     )
 
     def value_of(self, column: str) -> object:
-        """Return what it has in a column, an angle also where the settings gave it."""
+        """Return what it has in a column, an angle also where the settings gave it, or the ratio of
+        its sides."""
+        if column == SPAN_RATIO:
+            x, y = (float(self.columns.get(side) or 0) for side in ("span_x_m", "span_y_m"))
+            return float(f"{x / y:.6g}") if x and y else 1.0
         return getattr(self, column) if column in ANGLES else self.columns[column]
+
+
+def list_measures(judged: bool) -> tuple[str, ...]:
+    """Return what tables say of a candidate: more where engineering checks have seen it."""
+    return (*MEASURES, *ENGINEERED) if judged else MEASURES
 
 
 @dataclass(frozen=True, kw_only=True)

@@ -6,8 +6,8 @@ const place = Object.fromEntries(columns.map((c, k) => [c.key, k]));
 const valueOf = (design, key) => design.values[place[key]];
 const show = (v) => (v === null ? "–" : typeof v === "number" ? String(+v.toPrecision(4)) : v);
 const levels = {}; // of texts: their order on an axis
-for (const c of columns) if (c.text) levels[c.key] = [...new Set(designs.map((d) => valueOf(d, c.key)))].sort();
-const numberOf = (d, key) => (levels[key] ? levels[key].indexOf(valueOf(d, key)) : valueOf(d, key));
+for (const c of columns) if (c.text) levels[c.key] = [...new Set(designs.map((d) => valueOf(d, c.key)))].filter((v) => v !== null).sort();
+const numberOf = (d, key) => { const v = valueOf(d, key); return levels[key] && v !== null ? levels[key].indexOf(v) : v; };
 const varied = columns.filter((c) => new Set(designs.map((d) => valueOf(d, c.key))).size > 1);
 const ranges = {}, shapes = new Map();
 let turn = Math.PI / 6;
@@ -162,9 +162,9 @@ function update() {
 
 document.body.classList.add("scripted");
 for (const id of ["scatter-x", "scatter-y", "sort"]) byId(id).append(...varied.map((c) => new Option(c.words, c.key)));
-byId("scatter-x").value = aims[0];
-byId("scatter-y").value = aims[1];
-byId("sort").value = aims[0];
+const pick = (key, other) => (varied.some((c) => c.key === key) ? key : varied[Math.min(other, varied.length - 1)].key);
+byId("scatter-x").value = byId("sort").value = pick(aims[0], 0);
+byId("scatter-y").value = pick(aims[1], 1);
 byId("scatter-x").onchange = byId("scatter-y").onchange = drawScatter;
 byId("sort").onchange = drawShapes;
 byId("feasible").onchange = update;

@@ -7,7 +7,7 @@ from foldshell.explore.fronts import find_front, rank_by
 from foldshell.explore.measures import count_broken
 from foldshell.explore.tables import name_selected
 from foldshell.files.whole import Json
-from foldshell.records.candidate import CandidateRecord
+from foldshell.records.candidate import ENGINEERED, CandidateRecord
 from foldshell.records.summary import SummaryRow
 from foldshell.report.markup import Cell, Table, make_table, render
 from foldshell.settings.design import COLUMNS
@@ -35,11 +35,22 @@ WORDS = {
     "edge_strain_max": "largest edge strain",
     "depth_m": "depth of folds [m]",
     "cheap_m3": "concrete by one analysis [m³]",
+    "span_ratio": "sides of the plan, x over y",
+    "engineering_volume_m3": "concrete and steel [m³]",
+    "steel_kg": "steel [kg]",
+    "co2_kg": "CO₂ equivalent [kg]",
+    "cost": "cost",
+    "engineering": "engineering verdict",
 }
 DRAWN = ("volume_m3", "buckling_factor_min", "panels", "crease_length_m", "area_m2",
          "displacement_vertical_max_m", "plan_coverage", "depth_m", "cheap_m3")  # fmt: skip
 LISTED = ("volume_m3", "buckling_factor_min", "panels", "displacement_vertical_max_m",
           "plan_coverage", "depth_m")  # fmt: skip
+JUDGED = (*ENGINEERED, "engineering")
+"""What is shown as well where the engineering checks have seen the candidates."""
+TEXTS = ("engineering",)
+BIAS = 0.05
+"""Share from which the volume of the search is said to be another one than the confirmed."""
 AT_BOUND = 0.02
 """Share of a range within which a value counts as at its bound."""
 
@@ -54,6 +65,8 @@ class Confirmed:
     confirmed: float | None
     factor: float | None
     crosscheck: str | None
+    engineering: str | None
+    steel: float | None
     state: str
     page: str
 
@@ -73,7 +86,7 @@ def make_explore_page(
     contents of slopes.json."""
     kept = rank_by([record for record in records if record.feasible], exploration.aims[0])
     confirmed = list_confirmed(exploration, records, rows)
-    names = [*exploration.columns, *DRAWN]
+    names = [*exploration.columns, *DRAWN, *list_judged(records)]
     return render(
         "explore.html",
         title=f"Exploration {exploration.name}",
@@ -84,6 +97,7 @@ def make_explore_page(
         aim_value=getattr(kept[0], exploration.aims[0]) if kept else None,
         bounds=find_bounds(exploration, kept[:1]),
         confirmed=_tabulate_confirmed(confirmed),
+        bias=say_bias(confirmed),
         excluded=[(name, count) for name, count in count_broken(records).items()],
         variables=[(WORDS.get(v.name, v.name), ", ".join(v.choices) or f"{v.low:g} to {v.high:g}")
                    for v in exploration.variables],
@@ -103,11 +117,35 @@ def list_confirmed(
     return [
         Confirmed(
             row.design, known[row.design].candidate, known[row.design].volume_m3, row.volume_m3,
-            row.buckling_factor_min, row.crosscheck, row.state,
+            row.buckling_factor_min, row.crosscheck, row.engineering, row.steel_kg_m2, row.state,
             f"confirmed/{row.design}/page.html",
         )
         for row in rows if row.design in known
     ]  # fmt: skip
+
+
+def list_judged(records: Sequence[CandidateRecord]) -> list[str]:
+    """Return what the engineering checks said of any candidate."""
+    return [name for name in JUDGED if any(getattr(one, name) is not None for one in records)]
+
+
+def say_bias(confirmed: Sequence[Confirmed]) -> str:
+    """Say how far the volumes of the search are from the confirmed ones; empty without any."""
+    found = [one.bias for one in confirmed if one.bias is not None]
+    if not found:
+        return ""
+    mean, largest = sum(found) / len(found), max(found, key=abs)
+    words = (
+        f"the finer mesh takes {100 * mean:+.1f} % of concrete in the mean, {100 * largest:+.1f} % "
+        f"at most"
+    )
+    far = sum(abs(one) > BIAS for one in found)
+    if not far:
+        return f"The search is within {100 * BIAS:g} % of what was confirmed: {words}."
+    return (
+        f"The search is off by more than {100 * BIAS:g} % for {far} of {len(found)} designs: "
+        f"{words}. Its volumes rank designs; those that count are the confirmed ones."
+    )
 
 
 def find_bounds(exploration: Exploration, records: Sequence[CandidateRecord]) -> list[str]:
@@ -146,22 +184,23 @@ def _tabulate_confirmed(confirmed: Sequence[Confirmed]) -> Table | None:
     if not confirmed:
         return None
     header = ("design", "concrete in the search [m³]", "confirmed [m³]", "difference [%]",
-              "least buckling factor", "second code", "state")  # fmt: skip
+              "least buckling factor", "second code", "engineering verdict",
+              "steel [kg/m²]", "state")  # fmt: skip
     rows = [
         (one.name, one.searched, one.confirmed, None if one.bias is None else 100 * one.bias,
-         one.factor, one.crosscheck, one.state)
+         one.factor, one.crosscheck, one.engineering, one.steel, one.state)
         for one in confirmed
     ]  # fmt: skip
     return make_table(header, rows)
 
 
 def _tabulate(exploration: Exploration, records: Sequence[CandidateRecord]) -> Table:
-    names = exploration.columns
-    header = [WORDS["candidate"], *(WORDS.get(n, n) for n in (*names, *LISTED)), "state"]
+    names, listed = exploration.columns, [*LISTED, *list_judged(records)]
+    header = [WORDS["candidate"], *(WORDS.get(n, n) for n in (*names, *listed)), "state"]
     rows = [
         [
             record.candidate, *(record.value_of(name) for name in names),
-            *(getattr(record, name) for name in LISTED),
+            *(getattr(record, name) for name in listed),
             Cell("keeps all limits", "good") if record.feasible
             else Cell(", ".join(record.broken) or record.state, "bad"),
         ]
@@ -202,9 +241,9 @@ def _pair(exploration: Exploration) -> tuple[str, str]:
 
 
 def _is_text(records: Sequence[CandidateRecord], name: str) -> bool:
-    return any(isinstance(record.columns.get(name), str) for record in records)
+    return name in TEXTS or any(isinstance(one.columns.get(name), str) for one in records)
 
 
 def _value(record: CandidateRecord, name: str) -> object:
-    value = getattr(record, name) if name in DRAWN else record.value_of(name)
+    value = getattr(record, name) if name in (*DRAWN, *JUDGED) else record.value_of(name)
     return float(f"{value:.6g}") if isinstance(value, float) else value

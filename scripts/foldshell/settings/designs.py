@@ -68,6 +68,11 @@ def select_designs(designs: Iterable[Design], tag: str, source: str = "designs")
     return chosen
 
 
+def check_row(cells: Mapping[str, str], settings: Settings, place: str) -> Design:
+    """Return the design of one row of cells; raises `InputError` that begins with `place`."""
+    return _make_design(cells, settings, place, [])
+
+
 def _make_design(
     cells: Mapping[str, str], settings: Settings, place: str, notes: list[str]
 ) -> Design:

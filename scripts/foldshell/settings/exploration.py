@@ -1,20 +1,15 @@
-"""What an exploration searches: a file of its own, read strictly."""
+"""What an exploration searches: variables with ranges, aims, limits, how it goes on."""
 
 import math
-import re
 from collections.abc import Mapping
-from dataclasses import dataclass
-from pathlib import Path
+from dataclasses import dataclass, field
 
-from foldshell.files.errors import InputError
-from foldshell.settings.check import Reader
-from foldshell.settings.config_file import read_config
-from foldshell.settings.design import Design, DesignColumns
-from foldshell.settings.field import Group, Plain, Setting, list_settings, setting, settings_group
-from foldshell.settings.nearest import hint_nearest
+from foldshell.settings.design import MIURA_COLUMNS, OTHER_PARAMETERS, PARAMETERS
+from foldshell.settings.field import Group, Plain, setting, settings_group
+from foldshell.settings.sizing import REINFORCED, Sizing
 from foldshell.settings.stage import to_plain
+from foldshell.settings.support_row import PlainRow
 
-NAME = re.compile(r"[a-z0-9][a-z0-9_-]{0,63}")
 METHODS = ("gaussian_process", "sobol")
 AIMS = {
     "volume_m3": 1,
@@ -23,9 +18,20 @@ AIMS = {
     "displacement_vertical_max_m": 1,
     "buckling_factor_min": -1,
     "area_m2": 1,
+    "engineering_volume_m3": 1,
+    "steel_kg": 1,
+    "co2_kg": 1,
+    "cost": 1,
 }
 """What a search may aim at: 1 where less is better, -1 where more is."""
-VARIABLES_MAX = 12
+ENGINEERING_AIMS = ("engineering_volume_m3", "steel_kg", "co2_kg", "cost")
+"""Aims that need the engineering checks of every candidate."""
+AS_SET = "as_set"
+"""Stands for the measure of the study's settings."""
+PAPER, ENGINEERING, BOTH = "paper", "engineering", "both"
+SPAN_RATIO = "span_ratio"
+"""A variable that is no column: sides of the plan, x over y."""
+ALL_PARAMETERS = (*MIURA_COLUMNS, *OTHER_PARAMETERS)
 
 
 @settings_group
@@ -51,6 +57,11 @@ class SearchLimits(Group):
     buckling_factor_min: float = setting(
         4, minimum=0, maximum=100, meaning="Least buckling factor of the final state."
     )
+    verdicts: str = setting(
+        PAPER, choices=(PAPER, ENGINEERING, BOTH),
+        meaning="Verdicts that have to hold: that of the paper's criteria, the engineering one "
+        "(which costs its analyses for each design), or both.",
+    )  # fmt: skip
 
 
 @settings_group
@@ -88,6 +99,11 @@ class Search(Group):
         "dead_band", choices=("dead_band", "optimality", "filtered_dead_band"),
         meaning="Sizing rule of search and confirmation.",
     )  # fmt: skip
+    measure: str = setting(
+        AS_SET, choices=(AS_SET, "panel_mean", "element_max", "strip", REINFORCED),
+        meaning="What sizing.measure is in search and confirmation; as_set takes that of the "
+        "study's settings. reinforced sizes concrete and steel (aim engineering_volume_m3).",
+    )  # fmt: skip
     slopes: int = setting(
         1, unit="designs", minimum=0, maximum=20,
         meaning="Best designs whose slopes dV/dx are computed; multipliers are exact for the rule "
@@ -98,6 +114,16 @@ class Search(Group):
         meaning="The last design of each batch goes from the best so far down its slopes; it "
         "counts like any other, so it stays only where it helps.",
     )
+
+
+@settings_group
+class DerivedColumns(Group):
+    """Variables that are no columns, but set some."""
+
+    span_ratio: float = setting(
+        1, minimum=0.2, maximum=5,
+        meaning="Side of the plan along x over that along y, at the plan area of span_m squared.",
+    )  # fmt: skip
 
 
 @dataclass(frozen=True)
@@ -130,7 +156,8 @@ class Variable:
 
 @dataclass(frozen=True)
 class Exploration:
-    """An exploration: its name, the columns of the base design, variables, aims, limits, search."""
+    """An exploration: its name, the columns of the base design, variables, aims, limits, search,
+    the rows of the sets of supports that it names."""
 
     name: str
     base: Plain
@@ -138,6 +165,13 @@ class Exploration:
     aims: tuple[str, ...]
     limits: SearchLimits
     search: Search
+    supports: Mapping[str, list[PlainRow]] = field(default_factory=dict)
+
+    @property
+    def needs_engineering(self) -> bool:
+        """Whether each candidate is judged by the engineering checks."""
+        asked = bool(set(self.aims) & set(ENGINEERING_AIMS))
+        return asked or self.limits.verdicts != PAPER
 
     @property
     def columns(self) -> list[str]:
@@ -161,44 +195,20 @@ class Exploration:
         return {
             "name": self.name, "base": dict(self.base), "variables": variables,
             "aims": list(self.aims), "limits": to_plain(self.limits),
-            "search": to_plain(self.search),
+            "search": to_plain(self.search), "supports": dict(self.supports),
         }  # fmt: skip
 
     def make_row(self, name: str, values: Mapping[str, object]) -> Plain:
-        """Return a row of the table of designs: the base with the given columns."""
-        return {"design": name, **self.base, **values}
-
-
-def read_exploration(path: str | Path, defaults: DesignColumns) -> Exploration:
-    """Read and check a file of an exploration; its name is that of the file.
-
-    Raises
-    ------
-    InputError
-        for anything that is not as config/explorations/README.md says.
-    """
-    path = Path(path)
-    if not NAME.fullmatch(path.stem):
-        raise InputError(
-            f"{path}: a name of lower-case letters, digits, - and _ is due, as for designs"
-        )
-    data = read_config(path)
-    known = {"base", "variables", "aims", "limits", "search"}
-    for key in data:
-        if key not in known:
-            hint = hint_nearest(str(key), known) or f", allowed are {', '.join(sorted(known))}"
-            raise InputError(f"{path}: {key}: unknown key{hint}")
-    reader = Reader(str(path))
-    base = _read_base(reader, data.get("base", {}))
-    variables = _read_variables(reader, data.get("variables"))
-    return Exploration(
-        path.stem,
-        _complete(base, defaults),
-        variables,
-        _read_aims(reader, data.get("aims", ["volume_m3"])),
-        reader.read_group(SearchLimits, data.get("limits", {}), "limits"),
-        reader.read_group(Search, data.get("search", {}), "search"),
-    )
+        """Return a row of the table of designs: the base with the given columns; parameters that
+        its pattern does not have are 0."""
+        row = {"design": name, **self.base, **values}
+        has = PARAMETERS.get(str(row["pattern"]), ()) if "pattern" in row else ALL_PARAMETERS
+        row |= {key: 0.0 for key in ALL_PARAMETERS if key in row and key not in has}
+        if SPAN_RATIO in row:
+            side, root = float(row["span_m"]), math.sqrt(float(row.pop(SPAN_RATIO)))
+            x, y = (float(f"{one:.6g}") for one in (side * root, side / root))
+            row |= {"span_m": min(x, y), "span_x_m": x, "span_y_m": y}
+        return row
 
 
 def restore_exploration(plain: Plain) -> Exploration:
@@ -210,66 +220,16 @@ def restore_exploration(plain: Plain) -> Exploration:
         tuple(plain["aims"]),
         SearchLimits(**plain["limits"]),
         Search(**plain["search"]),
+        dict(plain["supports"]),
     )
 
 
-def _complete(base: Plain, defaults: DesignColumns) -> Plain:
-    row = Design(name="base", **(vars(defaults))).to_row()
-    return {key: row[key] for key in row if key not in ("design", "tags")} | base
-
-
-def _columns() -> dict[str, Setting]:
-    return {known.key: known for known in list_settings(DesignColumns).values()}
-
-
-def _find_column(reader: Reader, name: str, place: str) -> Setting:
-    columns = _columns()
-    if name not in columns:
-        hint = hint_nearest(name, columns) or f", columns are {', '.join(columns)}"
-        raise InputError(f"{reader.source}: {place}.{name}: unknown column of designs{hint}")
-    return columns[name]
-
-
-def _read_base(reader: Reader, data: object) -> Plain:
-    if not isinstance(data, Mapping):
-        raise reader.refuse("base", data, "a group of columns with values")
+def list_sizing(exploration: Exploration, sizing: Sizing) -> Plain:
+    """Return the settings of the group sizing that are those of a search: rule, measure, and the
+    buckling factor that it keeps."""
+    search, factor = exploration.search, exploration.limits.buckling_factor_min
     return {
-        name: reader.read_value(_find_column(reader, str(name), "base"), value, f"base.{name}")
-        for name, value in data.items()
+        "rule": search.rule,
+        "measure": sizing.measure if search.measure == AS_SET else search.measure,
+        "thinning_buckling_factor_min": max(sizing.thinning_buckling_factor_min, factor),
     }
-
-
-def _read_variables(reader: Reader, data: object) -> tuple[Variable, ...]:
-    if not isinstance(data, Mapping) or not 1 <= len(data) <= VARIABLES_MAX:
-        raise reader.refuse(
-            "variables", data, f"1 to {VARIABLES_MAX} columns of designs, each with [least, most]"
-        )
-    return tuple(_read_variable(reader, str(name), value) for name, value in data.items())
-
-
-def _read_variable(reader: Reader, name: str, value: object) -> Variable:
-    place = f"variables.{name}"
-    known = _find_column(reader, name, "variables")
-    if not isinstance(value, list) or len(value) < 2:
-        raise reader.refuse(place, value, "a list of [least, most], or of words to choose from,")
-    given = [reader.read_value(known, item, place) for item in value]
-    if known.kind is str:
-        if len(set(given)) < len(given):
-            raise reader.refuse(place, value, "a list of words, each once,")
-        return Variable(name, choices=tuple(given))
-    if len(given) != 2 or not float(given[0]) < float(given[1]):
-        raise reader.refuse(place, value, "a list of [least, most], the least first,")
-    if any(not math.isfinite(float(item)) for item in given):
-        raise reader.refuse(place, value, "a list of two finite numbers")
-    return Variable(name, float(given[0]), float(given[1]), known.kind is int)
-
-
-def _read_aims(reader: Reader, data: object) -> tuple[str, ...]:
-    words = ", ".join(AIMS)
-    if not isinstance(data, list) or len(data) not in (1, 2) or data[1:] == data[:1]:
-        raise reader.refuse("aims", data, f"a list of one or two of {words}")
-    for aim in data:
-        if aim not in AIMS:
-            hint = hint_nearest(str(aim), AIMS) or f", allowed are {words}"
-            raise InputError(f"{reader.source}: aims: {aim!r}: no design has this value{hint}")
-    return tuple(data)

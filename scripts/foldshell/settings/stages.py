@@ -36,7 +36,7 @@ STAGES: dict[str, tuple[type, ...]] = {
 }
 """Groups that each stage takes; a setting with `stages` of its own goes to those alone."""
 
-SEARCHED = STAGES["study"]
+SEARCHED = (*STAGES["study"], Codes)
 """Groups that a search of the pattern takes."""
 
 DECIDING = ("pattern", "fold", "mesh", "start", "analyse", "resize")
@@ -96,3 +96,9 @@ def hash_decisions(settings: Settings, design: Design) -> str:
     row["support"] = design.holding
     groups = {stage: stage_parameters(settings, stage, design) for stage in DECIDING}
     return hash_data({"design": row, "settings": groups})[:DIGITS]
+
+
+def search_parameters(settings: Settings, design: Design | None = None) -> Plain:
+    """Return the plain values that a search depends on: those of a study, and of the codes."""
+    plain = stage_parameters(settings, "study", design)
+    return {**plain, "codes": stage_parameters(settings, "checks", design)["codes"]}

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from foldshell.records.candidate import MEASURES, CandidateRecord
+from foldshell.records.candidate import CandidateRecord, list_measures
 from foldshell.records.entry import entries
 from foldshell.settings.exploration import Exploration
 from foldshell.settings.stage import flatten, to_plain
@@ -23,13 +23,18 @@ def write_explored_workbook(
     names = exploration.columns
     columns = [Column("candidate", "", "text", 11.0)]
     columns += [_column(exploration, name) for name in names]
-    columns += [make_column(about[name]) for name in MEASURES]
+    judged = exploration.needs_engineering
+    measures = list_measures(judged)
+    columns += [make_column(about[name]) for name in measures]
     columns += [Column("state", "", "text", 16.0), Column("feasible", "", "text", 9.0)]
     columns += [Column("broken", "", "text", 24.0), Column("reason", "", "wrap", 50.0)]
+    if judged:
+        columns += [Column("engineering", "", "text", 12.0)]
+        columns += [Column("engineering reason", "", "wrap", 50.0)]
     with create_workbook(path, f"Exploration {exploration.name}") as (book, styles):
         for title, rows in (("best", best), ("candidates", records)):
             sheet = add_sheet(book, title)
-            cells = [_cells(record, names) for record in rows]
+            cells = [_cells(record, names, measures, judged) for record in rows]
             write_table(sheet, styles, 0, columns, cells, upright=True)
             sheet.autofilter(1, 0, max(len(rows), 1) + 1, len(columns) - 1)
         notes = [("exploration", exploration.name), ("aims", ", ".join(exploration.aims))]
@@ -52,8 +57,11 @@ def _column(exploration: Exploration, name: str) -> Column:
     return Column(name, unit, "integer" if variable.whole else "decimal", 10.0)
 
 
-def _cells(record: CandidateRecord, names: Sequence[str]) -> list[object]:
+def _cells(
+    record: CandidateRecord, names: Sequence[str], measures: Sequence[str], judged: bool
+) -> list[object]:
     values = [record.value_of(name) for name in names]
-    measures = [getattr(record, name) for name in MEASURES]
+    numbers = [getattr(record, name) for name in measures]
     ends = [record.state, "yes" if record.feasible else "no", ", ".join(record.broken)]
-    return [record.candidate, *values, *measures, *ends, record.reason]
+    more = [record.engineering or "", record.engineering_reason or ""] if judged else []
+    return [record.candidate, *values, *numbers, *ends, record.reason, *more]

@@ -2,22 +2,29 @@
 
 import base64
 import struct
+from dataclasses import replace
 
 import numpy as np
 import pytest
 
-from foldshell.explore.evaluate import evaluate, fold_candidate, make_design, screen
+from foldshell.explore.evaluate import evaluate, screen
+from foldshell.explore.folded import fold_candidate, make_design
 from foldshell.explore.slopes import differentiate, find_slopes, respond, size_state
-from foldshell.explore.tables import read_candidate, tabulate, write_candidates
+from foldshell.explore.tables import (
+    describe_search,
+    read_candidate,
+    tabulate,
+    write_candidates,
+)
 from foldshell.settings.design import Design
 from foldshell.settings.exploration import Exploration, Search, SearchLimits, Variable
 from foldshell.settings.make import make_settings
 from foldshell.settings.stage import read_stage
-from foldshell.settings.stages import SEARCHED, stage_parameters
+from foldshell.settings.stages import SEARCHED, search_parameters
 
 SIZING = {"least_thickness_mm": 8, "start_thickness_mm": 60, "utilization_min": 0.2}
 SETTINGS = make_settings({"sizing": SIZING})
-STAGE = read_stage(stage_parameters(SETTINGS, "study"), *SEARCHED)
+STAGE = read_stage(search_parameters(SETTINGS), *SEARCHED)
 VARIABLES = (Variable("sector_angle_deg", 50.0, 70.0), Variable("strip_grading", -0.5, 0.5))
 
 
@@ -41,8 +48,8 @@ def test_a_candidate_is_sized_with_all_that_is_said_of_it():
     assert record.state == "sized" and record.volume_m3 > 0 and record.iterations > 3
     assert record.panels == 42 and record.rest_fold_angle_deg == pytest.approx(40.0)
     folded = fold_candidate(make_design(make_design_row()), STAGE)
-    vertices = folded.result.shape.vertices
-    assert record.area_m2 == pytest.approx(_area(vertices[folded.sheet.grid.facets]), rel=1e-12)
+    vertices = folded.arrays.vertices
+    assert record.area_m2 == pytest.approx(_area(vertices[folded.arrays.facets]), rel=1e-12)
     assert record.cheap_m3 == screen({"design": "x", **make_design_row()}, STAGE,
                                      exploration()).cheap_m3  # fmt: skip
     raw = base64.b64decode(record.geometry)
@@ -93,6 +100,61 @@ def test_tables_go_both_ways_and_name_units(tmp_path):
     assert told["volume_m3"] == record.volume_m3 and told["sector_angle_deg"] == pytest.approx(60.0)
 
 
+def judge(pattern, limits=(), **columns):
+    """Size a small shell by measure reinforced, with all that is said of steel."""
+    priced = {"concrete_m3": 300.0, "steel_kg": 2.0, "crease_m": 5.0}
+    loop = SIZING | {"least_thickness_mm": 45}
+    stage = read_stage(search_parameters(make_settings({"sizing": loop, "prices": priced})),
+                       *SEARCHED)  # fmt: skip
+    given = exploration("filtered_dead_band", **dict(limits))
+    given = replace(given, aims=("engineering_volume_m3", "cost"),
+                    search=given.search.changed(measure="reinforced"))  # fmt: skip
+    row = given.make_row("01-00", make_design_row(pattern=pattern, support="all") | columns)
+    return evaluate("01-00", row, stage, given)
+
+
+def test_steel_carbon_and_cost_of_a_candidate():
+    """Sums by hand, with the factors of the settings: 7850 kg/m3, 240 kg/m3, 1.2 kg/kg."""
+    record = judge("miura", {"verdicts": "both"})
+    assert record.state == "sized" and record.steel_kg > 0
+    density = record.steel_kg / 7850
+    assert record.engineering_volume_m3 == pytest.approx(record.volume_m3 + density, rel=1e-12)
+    assert record.co2_kg == pytest.approx(240 * record.volume_m3 + 1.2 * record.steel_kg, rel=1e-9)
+    cost = 300 * record.volume_m3 + 2 * record.steel_kg + 5 * record.crease_length_m
+    assert record.cost == pytest.approx(cost, rel=1e-6)
+    assert record.feasible == (record.engineering == "passes" and not record.broken)
+
+
+def test_a_design_that_fails_the_engineering_verdict_is_excluded_by_it():
+    """A dome of 40 mm without room for its bars, sized by the paper's measure."""
+    given = replace(exploration(verdicts="both"), aims=("steel_kg",))
+    record = evaluate("01-00", given.make_row("01-00", make_design_row()), STAGE, given)
+    assert record.state == "sized" and record.engineering == "fails"
+    assert record.broken == ("engineering",) and not record.feasible
+    assert record.engineering_reason and record.engineering_volume_m3 is None
+    said = describe_search(given, [record])
+    assert said == "t: no candidate keeps all limits: engineering excluded most, 1 of 1"
+
+
+@pytest.mark.parametrize(("pattern", "panels"), [("accordion", 42), ("smooth", 42)])
+def test_other_patterns_and_plans_are_candidates(pattern, panels):
+    """Of 7 x 8 lines on 12.73 m x 11.31 m, 1.125 to 1; an accordion does not reach a dome."""
+    given = exploration(plan_coverage_min=0.0)
+    values = {"pattern": pattern, "support": "all", "span_ratio": 1.125, "height_m": 3.0}
+    row = given.make_row("01-00", make_design_row() | values)
+    assert row["strip_grading"] == 0 and row["sector_angle_deg"] == 0
+    folded = fold_candidate(make_design(row), STAGE)
+    sides = [12 * 1.125**0.5, 12 / 1.125**0.5]
+    np.testing.assert_allclose(make_design(row).sides, sides, rtol=1e-5)
+    if pattern == "smooth":
+        np.testing.assert_allclose(np.ptp(folded.arrays.vertices, axis=0)[:2], sides, rtol=0.01)
+    record = evaluate("01-00", row, STAGE, given)
+    assert record.panels == panels and record.volume_m3 > 0
+    assert record.value_of("span_ratio") == pytest.approx(1.125, abs=1e-5)
+    quads = struct.unpack_from("<III", base64.b64decode(record.geometry))
+    assert quads == ((56, 42, 8) if pattern == "smooth" else (56, 84, 0))
+
+
 @pytest.mark.slow
 def test_slopes_are_of_first_order():
     """f(x + h) - f(x) - h f'(x) falls with h^2 (order 2.0 +- 0.2): volume, and active constraints.
@@ -128,7 +190,7 @@ def test_slope_of_the_resized_volume():
     variables = (Variable("rest_fold_angle_deg", 30.0, 62.0),)
     given = Exploration("t", row, variables, ("volume_m3",), SearchLimits(),
                         Search(rule="optimality", subdivisions=2))  # fmt: skip
-    plain = read_stage(stage_parameters(make_settings({}), "study"), *SEARCHED)
+    plain = read_stage(search_parameters(make_settings({})), *SEARCHED)
     stage = plain.changed(plain.sizing.changed(stop="stationary"))
     (slope,) = find_slopes(size_state(row, stage, given), stage, given)
     low, high = (

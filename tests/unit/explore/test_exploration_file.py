@@ -5,7 +5,8 @@ import pytest
 from foldshell.explore.names import list_references
 from foldshell.files.errors import InputError
 from foldshell.settings.design import Design
-from foldshell.settings.exploration import Variable, read_exploration, restore_exploration
+from foldshell.settings.exploration import Variable, restore_exploration
+from foldshell.settings.exploration_file import read_exploration
 from foldshell.settings.make import make_settings
 
 GOOD = """\
