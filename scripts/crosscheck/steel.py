@@ -56,8 +56,9 @@ def reinforce_two_layers(n: np.ndarray, m: np.ndarray, t: np.ndarray, bars: Bars
 
 
 def _place(found: tuple, t: np.ndarray, bars: Bars) -> np.ndarray:
-    """Where a cover acts: at its bars, else at half the depth that it needs, from the middle."""
-    depth = np.minimum(found[2] / bars.crush, t / 2)
+    """Where a cover acts: at its bars, else at half the depth that it needs, from the middle; that
+    depth is 0.98 t at most."""
+    depth = np.minimum(found[2] / bars.crush, 0.98 * t)
     return np.where(found[0] + found[1] > 0, t / 2 - bars.level, (t - depth) / 2)
 
 

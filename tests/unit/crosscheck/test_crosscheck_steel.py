@@ -34,7 +34,8 @@ def test_both_codes_design_the_same_steel_for_the_same_forces():
     thickness = rng.uniform(0.04, 0.2, count)
     theirs = reinforce(force, moment, thickness, Bars())
     layout = lay_out(Reinforcement())
-    own = find_demand(force[:, None, None], moment[:, None, None], thickness, layout, 0.45)
+    apart = (one.T[:, :, None, None] for one in (force, moment))
+    own = find_demand(*apart, thickness, layout, 0.45)
     scale = np.abs(force).max(axis=1) + np.abs(moment).max(axis=1) / 0.01
     gap = np.abs(own.steel.reshape(count, 4) - theirs).max(axis=1) / scale
     assert gap.max() < 1e-9

@@ -4,9 +4,9 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foldshell.checks.concrete.central_mesh import design_central_mesh
+from foldshell.checks.concrete.central_mesh import resolve_central_mesh
 from foldshell.checks.concrete.layout import Layout
-from foldshell.checks.concrete.sandwich import design_sandwich
+from foldshell.checks.concrete.sandwich import resolve_covers
 
 
 @dataclass(frozen=True)
@@ -28,35 +28,43 @@ def find_demand(
 
     Parameters
     ----------
-    force, moment : (E, q, c, 3) kN/m and kNm/m in the axes of the bars
+    force, moment : (3, E, q, c) kN/m and kNm/m, xx, yy, xy in the axes of the bars
     thickness : (E,) m
     """
-    steel = np.zeros((*force.shape[:-1], 2, 2))
-    strut_use = np.zeros(force.shape[:-1])
+    steel = np.zeros((*force.shape[1:], 2, 2))
+    strut_use = np.zeros(force.shape[1:])
     two = layout.has_two_layers(thickness)
     for chosen in (two, ~two):
         if not chosen.any():
             continue
-        given = force[chosen], moment[chosen], thickness[chosen][:, None, None]
+        part = slice(None) if chosen.all() else chosen
+        half = np.broadcast_to(thickness[chosen][:, None, None] / 2, strut_use[part].shape)
+        given = force[:, part], moment[:, part], half
         if chosen is two:
-            found = design_sandwich(*given, layout.levels)
-            steel[chosen] = found.steel
+            covers = resolve_covers(*given, layout.levels)
+            for layer, cover in enumerate(covers):
+                for axis, bars in enumerate(cover.pull.bars(*cover.force[:2])):
+                    steel[part, ..., layer, axis] = bars
+            strut_use[part] = np.maximum(*(cover.strut_use for cover in covers))
         else:
-            found = design_central_mesh(*given, ratio, layout.levels)
-            steel[chosen, ..., 0, :] = found.steel
-        strut_use[chosen] = found.strut_use.max(axis=-1)
+            found = resolve_central_mesh(*given, ratio, layout.levels)
+            for axis, bars in enumerate(found.steel):
+                steel[part, ..., 0, axis] = bars
+            strut_use[part] = np.maximum(*found.strut_use)
     return Demand(steel, strut_use)
 
 
 def principal_tension(force: np.ndarray, moment: np.ndarray, thickness: np.ndarray) -> np.ndarray:
     """s_1 of n / t +- 6 m / t^2, the larger of both faces: (E, q, c) kPa.
 
-    force, moment (E, q, c, 3) kN/m and kNm/m, thickness (E,) m.
+    force, moment (3, E, q, c) kN/m and kNm/m, thickness (E,) m.
     """
-    t = thickness[:, None, None, None]
-    faces = [force / t + sign * 6 * moment / t**2 for sign in (1, -1)]
-    return np.maximum(*[
-        (one[..., 0] + one[..., 1]) / 2
-        + np.hypot((one[..., 0] - one[..., 1]) / 2, one[..., 2])
-        for one in faces
-    ])  # fmt: skip
+    t = thickness[:, None, None]
+    membrane, bending = force / t, moment * (6 / t**2)
+    return np.maximum(_largest(membrane + bending), _largest(membrane - bending))
+
+
+def _largest(stress: np.ndarray) -> np.ndarray:
+    """Return the larger principal value (...) of stresses (3, ...), in their unit."""
+    x, y, xy = stress
+    return (x + y) / 2 + np.sqrt(((x - y) / 2) ** 2 + xy**2)

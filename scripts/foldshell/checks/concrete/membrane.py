@@ -40,20 +40,29 @@ def design_membrane(force: np.ndarray) -> MembraneDesign:
     """
     x, y, xy = np.moveaxis(np.asarray(force, dtype=float), -1, 0)
     pull = resolve_membrane(x, y, xy)
-    exchanged = x > y
-    first, second = np.maximum(np.abs(xy) + np.minimum(x, y), 0.0), pull.second
-    first = np.where(pull.cracked, first, 0.0)
-    pair = np.where(exchanged, second, first), np.where(exchanged, first, second)
-    return MembraneDesign(np.stack(pair, axis=-1), pull.strut, pull.cracked)
+    return MembraneDesign(np.stack(pull.bars(x, y), axis=-1), pull.strut, pull.cracked)
 
 
 @dataclass(frozen=True)
 class Pull:
-    """Of a membrane, all (k,): `second`, the larger force of bars; `strut`; `cracked` bool."""
+    """Of a membrane, all (k,): `first`, the force of the bars along the more compressed direction,
+    `second`, that of the others; `strut`; `cracked` bool."""
 
+    first: np.ndarray
     second: np.ndarray
     strut: np.ndarray
     cracked: np.ndarray
+
+    def bars(self, x: np.ndarray, y: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Return the forces (k,) kN/m of the bars along x and y; x, y (k,) those of the membrane.
+
+        EN 1992-1-1:2004 Annex F, F.1 (2): the other order is exchanged.
+        """
+        exchanged = x > y
+        return (
+            np.where(exchanged, self.second, self.first),
+            np.where(exchanged, self.first, self.second),
+        )
 
 
 def resolve_membrane(x: np.ndarray, y: np.ndarray, xy: np.ndarray) -> Pull:
@@ -71,8 +80,8 @@ def resolve_membrane(x: np.ndarray, y: np.ndarray, xy: np.ndarray) -> Pull:
     cracked = second > ROUND_OFF * steep
     principal = np.sqrt(((high - low) / 2) ** 2 + shear**2) - (low + high) / 2
     strut = np.where(cracked, steep + add, principal)
-    second = np.where(cracked, second, 0.0)
-    return Pull(second, strut, cracked)
+    first = np.where(cracked, np.maximum(shear + low, 0.0), 0.0)
+    return Pull(first, np.where(cracked, second, 0.0), strut, cracked)
 
 
 def concrete_forces(force: np.ndarray, steel: np.ndarray) -> np.ndarray:

@@ -12,7 +12,7 @@ from foldshell.checks.concrete.demand import find_demand
 from foldshell.checks.concrete.envelope import Envelope, find_envelope, take_means
 from foldshell.checks.concrete.model import ConcreteModel
 from foldshell.checks.concrete.panels import PanelSteel
-from foldshell.checks.concrete.sampling import sample_resultants
+from foldshell.checks.concrete.sampling import find_basis, sample, turn_resultants
 from foldshell.shell.stress import StressResultants
 
 LEVER = 0.8
@@ -30,10 +30,12 @@ def find_crack_widths(
     resultants (E, 3, m, c) kN/m and kNm/m of quasi-permanent combinations.
     """
     own = np.append(steel.thickness, 1.0)[np.minimum(model.mesh.panel, model.panels)]
-    force, moment = sample_resultants(model.operators, model.local, resultants)
+    basis = find_basis(model.operators, model.local)
+    force, moment = (sample(basis, one) for one in turn_resultants(model.local, resultants))
     demand = find_demand(force, moment, own, model.layout, model.asked.central_lever_ratio)
     flat = demand.steel.reshape(*demand.steel.shape[:3], 4)
-    means = take_means(model.local, np.concatenate([flat, force, moment], axis=-1))
+    apart = [np.moveaxis(one, 0, -1) for one in (force, moment)]
+    means = take_means(model.local, np.concatenate([flat, *apart], axis=-1))
     rows = np.flatnonzero(model.local.panel < model.panels)
     panel, means = model.local.panel[rows], means[rows]
     pulled = means[..., :4].reshape(*means.shape[:2], 2, 2)

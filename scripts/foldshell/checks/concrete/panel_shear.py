@@ -51,7 +51,7 @@ def find_panel_shear(
     sampling, strengths, asked = model.shear, model.layout.strengths, model.asked
     shear = shear_coefficients(model.operators, resultants.moment)
     points = sampling.points
-    force = turn_components(evaluate(model.operators, resultants.force, points), sampling.angle)
+    force = evaluate(model.operators, turn_components(resultants.force, sampling.angle), points)
     at_points = turn_vectors(evaluate(model.operators, shear, points), sampling.angle)
     means = take_means(sampling, np.concatenate([at_points, force], axis=-1))
     rows = np.flatnonzero(sampling.panel < model.panels)

@@ -10,7 +10,7 @@ from foldshell.checks.concrete.detailing import bar_spacing
 from foldshell.checks.concrete.envelope import Envelope, find_envelope, take_means
 from foldshell.checks.concrete.layout import DIAMETERS, Layout
 from foldshell.checks.concrete.model import ConcreteModel
-from foldshell.checks.concrete.sampling import sample_resultants
+from foldshell.checks.concrete.sampling import find_basis, sample, turn_resultants
 from foldshell.shell.stress import StressResultants
 
 BLOCK = 10_000
@@ -87,9 +87,11 @@ def _design_points(
     found = np.empty((len(thickness), points, columns, 5))
     tension = np.empty(len(thickness))
     size = max(1, BLOCK // (points * columns))
+    basis = find_basis(model.operators, model.local)
+    turned = turn_resultants(model.local, resultants)
     for start in range(0, len(thickness), size):
         part = slice(start, start + size)
-        force, moment = sample_resultants(model.operators, model.local, resultants, part)
+        force, moment = (sample(basis, one[part]) for one in turned)
         demand = find_demand(force, moment, thickness[part], layout, ratio)
         found[part, ..., :4] = demand.steel.reshape(*demand.steel.shape[:3], 4)
         found[part, ..., 4] = demand.strut_use

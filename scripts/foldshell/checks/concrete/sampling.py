@@ -7,11 +7,12 @@ import numpy as np
 
 from foldshell.checks.strips import NO_EDGE, Strips
 from foldshell.shell.mesh import ShellMesh
+from foldshell.shell.reference import orthonormal_basis
 from foldshell.shell.stiffness import ShellOperators
-from foldshell.shell.stress import StressResultants, cell_points, evaluate
+from foldshell.shell.stress import StressResultants, cell_points
 
-DIVISIONS = 8
-"""Cells along an edge of a facet, with one point each: 64 points in a facet."""
+DIVISIONS = 12
+"""Cells along an edge of a facet, with one point each: 144 points in a facet."""
 
 if TYPE_CHECKING:
     from scipy import sparse
@@ -123,29 +124,31 @@ def find_bar_angles(operators: ShellOperators, strips: Strips) -> np.ndarray:
 
 
 def turn_components(values: np.ndarray, angle: np.ndarray) -> np.ndarray:
-    """Return (E, q, c, 3) xx, yy, xy in axes turned by `angle` (E,) rad, in their unit."""
-    cos, sin = (one[:, None, None] for one in (np.cos(angle), np.sin(angle)))
-    x, y, xy = np.moveaxis(values, -1, 0)
+    """Return (E, 3, ...) xx, yy, xy in axes turned by `angle` (E,) rad, in their unit."""
+    angle = angle.reshape(-1, *[1] * (values.ndim - 2))
+    cos, sin = np.cos(angle), np.sin(angle)
+    x, y, xy = np.moveaxis(values, 1, 0)
+    both = 2 * sin * cos * xy
     return np.stack(
         [
-            cos * cos * x + sin * sin * y + 2 * sin * cos * xy,
-            sin * sin * x + cos * cos * y - 2 * sin * cos * xy,
+            cos * cos * x + sin * sin * y + both,
+            sin * sin * x + cos * cos * y - both,
             (cos * cos - sin * sin) * xy + sin * cos * (y - x),
         ],
-        axis=-1,
+        axis=1,
     )
 
 
-def sample_resultants(
-    operators: ShellOperators,
-    sampling: Sampling,
-    resultants: StressResultants,
-    part: slice = slice(None),
-) -> tuple[np.ndarray, np.ndarray]:
-    """Return n and m (E, q, c, 3) in kN/m and kNm/m at the points, in the axes of the bars; of some
-    elements."""
-    force, moment = (
-        turn_components(evaluate(operators, one[part], sampling.points), sampling.angle[part])
-        for one in (resultants.force, resultants.moment)
-    )
-    return force, moment
+def turn_resultants(sampling: Sampling, resultants: StressResultants) -> list[np.ndarray]:
+    """Return the coefficients of n and m, each (E, 3, m, c) kN/m or kNm/m, along the bars."""
+    return [turn_components(one, sampling.angle) for one in (resultants.force, resultants.moment)]
+
+
+def find_basis(operators: ShellOperators, sampling: Sampling) -> np.ndarray:
+    """Return the basis of stress (q, m) at the points, without unit."""
+    return orthonormal_basis(operators.mesh.order - 1, sampling.points)
+
+
+def sample(basis: np.ndarray, coefficients: np.ndarray) -> np.ndarray:
+    """Return the components (3, E, q, c) apart of coefficients (E, 3, m, c), in their unit."""
+    return np.matmul(basis, np.moveaxis(coefficients, 1, 0))

@@ -9,10 +9,14 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foldshell.checks.concrete.membrane import Pull, design_membrane, resolve_membrane
+from foldshell.checks.concrete.membrane import Pull, resolve_membrane
 
 PASSES = 3
 """Times that levers are found anew; the third moves that of a slab by less than 0.1 %."""
+DEPTH_MOST = 0.98
+"""Of the thickness that compression of one cover may fill. Beyond half of it concrete crushes, but
+the lever goes on falling with the depth: held at that of half the sheet, the steel of panels that
+crush is too little, and the largest strut hangs on which points of a mesh pass that bound."""
 
 
 @dataclass(frozen=True)
@@ -73,22 +77,60 @@ def design_sandwich(
     """
     n, m = (np.ascontiguousarray(np.moveaxis(one, -1, 0)) for one in (force, moment))
     half = np.broadcast_to(np.asarray(thickness, float) / 2, n.shape[1:])
+    covers = resolve_covers(n, m, half, levels)
+    steel = np.stack([np.stack(one.pull.bars(*one.force[:2]), axis=-1) for one in covers], axis=-2)
+    strut, use, lever = (
+        np.stack([getattr(one, name) for one in covers], axis=-1)
+        for name in ("strut", "strut_use", "lever")
+    )
+    shared = np.stack([np.moveaxis(one.force, 0, -1) for one in covers], axis=-2)
+    return SandwichDesign(steel, strut, use, lever, shared)
+
+
+@dataclass(frozen=True)
+class Cover:
+    """One cover of k states: `force` (3, k) kN/m, `pull` what it needs, `lever` (k,) m,
+    `strut_use` (k,) share of what half the thickness carries."""
+
+    force: np.ndarray
+    pull: Pull
+    lever: np.ndarray
+    strut_use: np.ndarray
+
+    @property
+    def strut(self) -> np.ndarray:
+        """Largest compression (k,) kN/m."""
+        return self.pull.strut
+
+
+def resolve_covers(
+    n: np.ndarray, m: np.ndarray, half: np.ndarray, levels: Levels
+) -> tuple[Cover, Cover]:
+    """The same for components that stand apart: bottom and top of k states.
+
+    n, m (3, k) kN/m and kNm/m, half (k,) m of the thickness; k of any number of axes.
+    """
     at_steel = half - levels.steel
     bottom = top = at_steel
     for _ in range(PASSES):
-        total = bottom + top
-        below = resolve_membrane(*((n * top + m) / total))
-        above = resolve_membrane(*((n * bottom - m) / total))
+        below, above = (resolve_membrane(*one) for one in _share(n, m, bottom, top))
         bottom, top = (_find_lever(one, half, at_steel, levels) for one in (below, above))
-    lever = np.stack([bottom, top], axis=-1)
-    shared = split_between_covers(force, moment, lever)
-    found = design_membrane(shared)
-    strength = np.where(found.cracked, levels.strut_strength, levels.strength)
-    use = found.strut / (half[..., None] * strength)
-    return SandwichDesign(found.steel, found.strut, use, lever, shared)
+    found = []
+    for force, lever in zip(_share(n, m, bottom, top), (bottom, top), strict=True):
+        pull = resolve_membrane(*force)
+        strength = np.where(pull.cracked, levels.strut_strength, levels.strength)
+        found.append(Cover(force, pull, lever, pull.strut / (half * strength)))
+    return found[0], found[1]
+
+
+def _share(n, m, bottom: np.ndarray, top: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Return the forces (3, k) of bottom and top, as `split_between_covers`."""
+    total = 1 / (bottom + top)
+    turned = m * total
+    return n * (top * total) + turned, n * (bottom * total) - turned
 
 
 def _find_lever(found: Pull, half: np.ndarray, at_steel: np.ndarray, levels: Levels) -> np.ndarray:
-    """Return the lever (...) m of a cover that needs what was found; `half` is t / 2."""
-    depth = np.minimum(found.strut / levels.strength, half)
+    """Return the lever (k,) m of a cover that needs what was found; `half` is t / 2."""
+    depth = np.minimum(found.strut / levels.strength, 2 * DEPTH_MOST * half)
     return np.where(found.cracked, at_steel, half - depth / 2)
