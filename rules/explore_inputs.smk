@@ -39,3 +39,13 @@ def candidates_of(number):
 def earlier(wildcards):
     """Return those of all rounds before one."""
     return [file for number in range(int(wildcards.round)) for file in candidates_of(number)]
+
+
+# By what rivals are sized: the paper's measure by the rule that keeps a factor, and with steel.
+MEASURES = {
+    "paper": {
+        "rule": "optimality",
+        "thinning_buckling_factor_min": EXPLORATION.limits.buckling_factor_min,
+    },
+    "reinforced": read_config(f"{HOME}/config/reinforced.yaml")["sizing"],
+}

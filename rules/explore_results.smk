@@ -86,3 +86,6 @@ rule explore_manifest:
 rule explore:
     input:
         rules.explore_manifest.output,
+
+
+include: "rivals.smk"

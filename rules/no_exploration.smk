@@ -1,6 +1,11 @@
-# Where no exploration is named: the target says what is due.
+# Where no exploration is named: the targets say what is due.
 
 
 rule explore:
+    input:
+        name_an_exploration,
+
+
+rule beside:
     input:
         name_an_exploration,

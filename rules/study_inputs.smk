@@ -25,7 +25,7 @@ def explored_tables(wildcards):
 
 
 def name_an_exploration(wildcards):
-    """Say which setting the target `explore` needs."""
+    """Say which setting the targets `explore` and `beside` need."""
     with user_errors():
         raise InputError(
             "exploration: none is named: type --config exploration=FILE, such as "

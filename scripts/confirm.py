@@ -1,14 +1,10 @@
 """Rule confirm: the best candidates of an exploration as ordinary designs, sized and checked."""
 
 import shutil
-import subprocess
-import sys
 from pathlib import Path
 
-import yaml
-
 from foldshell.engine.job import run_job
-from foldshell.files.errors import InputError
+from foldshell.engine.nested import run_table
 from foldshell.files.whole import atomic_path, write_text_if_changed
 from foldshell.settings.stage import Plain
 
@@ -30,14 +26,10 @@ def main(
     """
     if len(Path(selected_path).read_text(encoding="utf-8").splitlines()) < 2:
         return write_text_if_changed(summary_path, "")
-    more = {"designs": str(selected_path), "results": str(folder), "study": "found"}
-    more |= {"exploration": "none", "loop": "whole", "sizing": config.get("sizing", {}) | sizing}
-    settings = Path(f"{folder}.yaml")
-    write_text_if_changed(settings, yaml.safe_dump(config | more, sort_keys=False))
-    words = [sys.executable, "-m", "snakemake", "-s", str(snakefile), "--nolock"]
-    words += ["--cores", str(cores), "--configfile", str(settings)]
-    if subprocess.run(words).returncode:
-        raise InputError(f"{folder}: not all selected designs were confirmed: see above")
+    run_table(
+        selected_path, folder, snakefile=snakefile, study="found", config=config, sizing=sizing,
+        cores=cores,
+    )  # fmt: skip
     with atomic_path(summary_path) as temporary:
         shutil.copyfile(Path(folder, "studies/found/summary.csv"), temporary)
 

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from foldshell.explore.bounds import list_bounds
 from foldshell.explore.fronts import find_front, rank_by
 from foldshell.explore.measures import count_broken
 from foldshell.explore.tables import name_selected
@@ -51,8 +52,6 @@ JUDGED = (*ENGINEERED, "engineering")
 TEXTS = ("engineering",)
 BIAS = 0.05
 """Share from which the volume of the search is said to be another one than the confirmed."""
-AT_BOUND = 0.02
-"""Share of a range within which a value counts as at its bound."""
 
 
 @dataclass(frozen=True)
@@ -150,20 +149,8 @@ def say_bias(confirmed: Sequence[Confirmed]) -> str:
 
 def find_bounds(exploration: Exploration, records: Sequence[CandidateRecord]) -> list[str]:
     """Return the variables whose range ends where the given designs stand: it decides there."""
-    found = []
-    for variable in exploration.variables:
-        if variable.choices:
-            continue
-        for record in records:
-            if record.candidate.startswith("00"):
-                continue
-            share = (float(record.columns[variable.name]) - variable.low) / (
-                variable.high - variable.low
-            )
-            end = variable.low if share < AT_BOUND else variable.high
-            if not AT_BOUND <= share <= 1 - AT_BOUND:
-                found.append(f"{WORDS.get(variable.name, variable.name)} at {end:g}")
-    return found
+    ends = list_bounds(exploration, records)
+    return [f"{WORDS.get(name, name)} at {end:g}" for name, end in ends]
 
 
 def _draw_slopes(entry: Json) -> dict:

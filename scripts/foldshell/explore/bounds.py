@@ -1,0 +1,28 @@
+"""Where the range of a variable decides: designs that stand at its end."""
+
+from collections.abc import Sequence
+
+from foldshell.records.candidate import CandidateRecord
+from foldshell.settings.exploration import Exploration
+
+AT_BOUND = 0.02
+"""Share of a range within which a value counts as at its bound."""
+
+
+def list_bounds(
+    exploration: Exploration, records: Sequence[CandidateRecord]
+) -> list[tuple[str, float]]:
+    """Return the variables, with the end of their range, where found designs stand at that end."""
+    found = []
+    for variable in exploration.variables:
+        if variable.choices:
+            continue
+        for record in records:
+            if record.candidate.startswith("00"):
+                continue
+            share = (float(record.columns[variable.name]) - variable.low) / (
+                variable.high - variable.low
+            )
+            if not AT_BOUND <= share <= 1 - AT_BOUND:
+                found.append((variable.name, variable.low if share < AT_BOUND else variable.high))
+    return found

@@ -1,0 +1,91 @@
+"""What the best of an exploration is held against: the lightest of the table, the smooth shell."""
+
+from collections.abc import Sequence
+from dataclasses import replace
+
+from foldshell.explore.bounds import list_bounds
+from foldshell.explore.evaluate import evaluate
+from foldshell.explore.fronts import rank_by
+from foldshell.explore.rounds import choose_best
+from foldshell.records.candidate import CandidateRecord
+from foldshell.records.rivals import ResizedRow, name_kind
+from foldshell.settings.exploration import Exploration
+from foldshell.settings.field import Plain
+from foldshell.settings.stage import StageSettings
+
+RULE = "optimality"
+"""All shells are compared by the one rule that keeps a buckling factor while it takes away."""
+FACTORS = (6.0, 12.0)
+"""Buckling factors that shells are sized for, besides the limit of the search."""
+
+
+def choose_rivals(
+    exploration: Exploration, records: Sequence[CandidateRecord]
+) -> list[CandidateRecord]:
+    """Return the best design that was found, the lightest row of the table, the smooth shell."""
+    first = [record for record in records if record.candidate.startswith("00")]
+    rows = [r for r in first if r.columns["pattern"] != "smooth" and r.state == "sized"]
+    smooth = [record for record in first if record.columns["pattern"] == "smooth"]
+    return [
+        *choose_best(exploration, records, 1), *rank_by(rows, "volume_m3")[:1], *smooth[:1]
+    ]  # fmt: skip
+
+
+def describe_exploration(
+    exploration: Exploration, records: Sequence[CandidateRecord], settings: StageSettings
+) -> Plain:
+    """Return what was searched, and which ranges end where the best design stands."""
+    best = choose_best(exploration, records, 1)
+    return {
+        "exploration": exploration.to_plain(),
+        "bounds": [[name, end] for name, end in list_bounds(exploration, best)],
+        "least_thickness_m": settings.sizing.least_thickness,
+    }
+
+
+def list_factors(exploration: Exploration, rivals: Sequence[CandidateRecord]) -> list[float]:
+    """Return the factors to size for: the limit of the search, that of the best, a few more."""
+    limit = exploration.limits.buckling_factor_min
+    found = [r.buckling_factor_min for r in rivals if r.candidate[:2] != "00"]
+    more = [round(factor, 2) for factor in found if factor is not None]
+    return sorted({limit, *(factor for factor in (*FACTORS, *more) if factor > limit)})
+
+
+def resize(
+    exploration: Exploration, records: Sequence[CandidateRecord], settings: StageSettings
+) -> list[ResizedRow]:
+    """Size each rival anew for each buckling factor by the rule `optimality`, on one mesh.
+
+    A shell that keeps the next factor already is not sized again: that limit does not hold it.
+    """
+    rows = []
+    for rival in (rivals := choose_rivals(exploration, records)):
+        known: CandidateRecord | None = None
+        for factor in list_factors(exploration, rivals):
+            if (
+                known is None
+                or known.state != "sized"
+                or (known.buckling_factor_min or 0.0) < factor
+            ):
+                known = _size_for(factor, rival, exploration, settings)
+            rows.append(
+                ResizedRow(
+                    candidate=rival.candidate,
+                    kind=name_kind(rival.candidate, rival.columns["pattern"]),
+                    factor_due=factor, state=known.state, volume_m3=known.volume_m3,
+                    buckling_factor_min=known.buckling_factor_min, iterations=known.iterations,
+                )
+            )  # fmt: skip
+    return rows
+
+
+def _size_for(
+    factor: float, rival: CandidateRecord, exploration: Exploration, settings: StageSettings
+) -> CandidateRecord:
+    given = replace(
+        exploration,
+        limits=exploration.limits.changed(buckling_factor_min=factor),
+        search=exploration.search.changed(rule=RULE),
+    )
+    row = {**rival.columns, "design": rival.candidate}
+    return evaluate(rival.candidate, row, settings, given)
