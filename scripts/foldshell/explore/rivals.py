@@ -62,11 +62,7 @@ def resize(
     for rival in (rivals := choose_rivals(exploration, records)):
         known: CandidateRecord | None = None
         for factor in list_factors(exploration, rivals):
-            if (
-                known is None
-                or known.state != "sized"
-                or (known.buckling_factor_min or 0.0) < factor
-            ):
+            if not _keeps(known, factor):
                 known = _size_for(factor, rival, exploration, settings)
             rows.append(
                 ResizedRow(
@@ -77,6 +73,11 @@ def resize(
                 )
             )  # fmt: skip
     return rows
+
+
+def _keeps(known: CandidateRecord | None, factor: float) -> bool:
+    sized = known is not None and known.state == "sized"
+    return sized and (known.buckling_factor_min or 0.0) >= factor
 
 
 def _size_for(
