@@ -71,6 +71,7 @@ rule report:
         tiles=rules.all_designs.output.tiles,
         verification=local(f"{SCRIPTS}/../tests/verification/README.md"),
         claims=judged_claims,
+        fold=answer_of_explorations,
         figures=charts_of_study,
         designs=report_designs,
         library=code_inputs("report"),

@@ -44,6 +44,14 @@ def judged_claims(wildcards):
     return f"{STUDY}/claims.json" if has_claims() else []
 
 
+def answer_of_explorations(wildcards):
+    """Return the page of all explorations and its charts, nothing where none has been run."""
+    folder = Path(RESULTS, "explorations")
+    names = ["function_follows_fold.md"]
+    names += [f"images/fold_answer_{name}.png" for name in ("factors", "panels")]
+    return [f"{folder}/{name}" for name in names] if any(folder.glob("*/explore.tsv")) else []
+
+
 def charts_of_study(wildcards):
     """Return the charts that compare anything."""
     return [f"{STUDY}/figures/{name}.png" for name in CHARTS + PANEL_CHARTS]

@@ -2,6 +2,7 @@
 
 from foldshell.claims.sensitivity import DELIVERED, SHEAR
 from foldshell.files.errors import InputError
+from foldshell.files.whole import hash_file
 
 
 def delivered_state(wildcards):
@@ -22,6 +23,22 @@ def explored_tables(wildcards):
                 "--config exploration=FILE first"
             )
     return found
+
+
+def explored_beside(wildcards):
+    """Return what stands beside those tables, as far as it has been made."""
+    folder = Path(RESULTS, "explorations")
+    names = ("confirmed.csv", "selected.tsv", "rivals/*.csv", "rivals/about.json")
+    return sorted(str(path) for name in names for path in folder.glob(f"*/{name}"))
+
+
+def table_summary():
+    """Return the summary of the study of Table 1 with its hash, nothing where it has not been run.
+
+    No input: as one it would have the whole study made anew where its code has changed.
+    """
+    path = f"{RESULTS}/{STUDIES}/table1/summary.csv"
+    return [path, hash_file(path)] if Path(path).is_file() else []
 
 
 def name_an_exploration(wildcards):

@@ -1,7 +1,7 @@
 """Rule report: the report of the study, one HTML file that asks no host for anything."""
 
 import os
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 from foldshell.engine.job import run_job
@@ -13,7 +13,7 @@ from foldshell.settings.stages import STAGES
 
 
 def main(
-    paths: Mapping[str, str | Path],
+    paths: Mapping[str, str | Path | Sequence[str]],
     figures: Mapping[str, str | Path],
     report: str | Path,
     *,
@@ -27,7 +27,8 @@ def main(
 
     Parameters
     ----------
-    paths : summary (csv), tiles (json), verification (md), and claims (json) where they are judged
+    paths : summary (csv), tiles (json), verification (md), claims (json) where they are judged,
+        and fold (the answer of explorations as md, its charts) where there are any
     figures : charts, PNG files by name
     study : tag of the study
     results : folder with one folder per design
@@ -35,10 +36,7 @@ def main(
     settings : plain parameters of stage `study`
     left_out : charts that were not made, with the reason
     """
-    text = Path(paths["verification"]).read_text(encoding="utf-8")
-    files = read_study(
-        study, paths["summary"], results, paths["tiles"], figures, paths.get("claims"), text
-    )
+    files = read_study(study, paths, results, figures)
     way = Path(os.path.relpath(results, Path(report).parent)).as_posix()
     page = write_study_report(
         files, read_stage(settings, *STAGES["study"]), find_provenance(project), way, left_out

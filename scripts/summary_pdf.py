@@ -23,7 +23,7 @@ def main(
 
     `paths` are summary (csv), tiles (json) and sheet (png), `results` has one folder per design.
     """
-    files = read_study(study, paths["summary"], results, paths["tiles"], {}, None, "")
+    files = read_study(study, paths, results, {})
     data = make_summary_sheet(files)
     stream = io.BytesIO()
     with Image.open(paths["sheet"]) as whole:
@@ -34,4 +34,8 @@ def main(
 
 if "snakemake" in globals():
     with run_job(snakemake):  # noqa: F821
-        main(snakemake.input, snakemake.output.pdf, **snakemake.params)  # noqa: F821
+        main(
+            dict(snakemake.input.items()),  # noqa: F821
+            snakemake.output.pdf,  # noqa: F821
+            **snakemake.params,  # noqa: F821
+        )

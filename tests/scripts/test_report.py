@@ -136,6 +136,27 @@ def test_hostile_cells_stay_texts(tmp_path):
     assert json.loads(data)["designs"][0]["values"]["reason"] == EVIL.replace("_", " ")
 
 
+def test_what_the_fold_buys_is_a_chapter_where_patterns_were_searched(tmp_path):
+    """Text, tables and charts in their places, headings one level down; else how to make it."""
+    text = run(tmp_path)
+    assert "No pattern has been searched" in text and "explore beside" in text
+    page = tmp_path / "function_follows_fold.md"
+    page.write_text(
+        "# What the fold buys\n\nFirst words.\n\n## In short\n\n- less\n\n"
+        "![a chart](images/one.png)\n"
+        "\n| roof |\n|---|\n| arch |\n\nMade by\n\n```bash\nsnakemake fold_answer\n```\n"
+    )
+    Image.new("RGB", (900, 500), "red").save(tmp_path / "one.png")
+    arguments = write_results(tmp_path)
+    arguments["paths"] |= {"fold": [page, tmp_path / "one.png"]}
+    report.main(**arguments)
+    chapter = arguments["report"].read_text(encoding="utf-8").partition('<section id="fold">')[2]
+    chapter = chapter.partition("</section>")[0]
+    assert "<h3>In short</h3>" in chapter and "<td>arch</td>" in chapter
+    assert chapter.index("First words") < chapter.index("data:image/webp") < chapter.index("arch")
+    assert "a chart" in chapter and "Made by" not in chapter and "No pattern" not in chapter
+
+
 def test_claims_and_engineering_checks_are_shown_where_they_are(tmp_path):
     """A judged claim has its verdict; an engineering check stands beside the paper's."""
     arguments = write_results(tmp_path)

@@ -59,3 +59,37 @@ def test_no_design_that_keeps_all_limits_is_a_sentence(code, tmp_path):
     said = "no candidate keeps all limits: plan_coverage_min excluded most"
     assert said in (folder / "results/logs/explored/small.log").read_text()
     assert "None keeps all limits" in (folder / FOLDER / "explore.html").read_text()
+
+
+@pytest.mark.slow
+def test_a_small_search_makes_a_whole_answer(code, tmp_path):
+    """Page, charts, found designs, and the chapter of the report; the found designs are a table
+    that the workflow takes, and the page's bytes are the same when it is made again."""
+    text = TEXT.replace("rounds: 3", "rounds: 0")
+    folder = make_folder(tmp_path / "answer", text)
+    done = run(code, folder, *TARGET, "beside")
+    assert done.returncode == 0, done.stderr[-3000:]
+    done = run(code, folder, "fold_answer", "all")
+    assert done.returncode == 0, done.stderr[-3000:]
+    home = folder / "results/explorations"
+    page = (home / "function_follows_fold.md").read_text()
+    for words in ("## In short", "against the smooth shell", "## Concrete against buckling factor",
+                  "## Concrete against panels", "## By the engineering verdict", "lightest of the",
+                  "## What it buys", "## What it costs", "## Where limits decide",
+                  "explore beside"):  # fmt: skip
+        assert words in page, words
+    assert "not been compared" not in page and "nan" not in page and "None" not in page
+    for name in ("factors", "panels"):
+        assert f"](images/fold_answer_{name}.png)" in page
+        assert (home / f"images/fold_answer_{name}.png").stat().st_size > 5000
+    report = (folder / "results/report.html").read_text()
+    chapter = report.partition('<section id="fold">')[2].partition("</section>")[0]
+    assert "against the smooth shell" in chapter and chapter.count("data:image/webp") == 2
+    before = [path.read_bytes() for path in sorted(home.glob("f*"))]
+    (home / "function_follows_fold.md").unlink()
+    done = run(code, folder, "fold_answer")
+    assert done.returncode == 0, done.stderr[-3000:]
+    assert [path.read_bytes() for path in sorted(home.glob("f*"))] == before
+    found = ("--config", f"designs={home}/found.tsv", "results=results/again", "study=found")
+    done = run(code, folder, "-n", *found)
+    assert done.returncode == 0 and "small-01-" in done.stdout + done.stderr, done.stderr[-3000:]

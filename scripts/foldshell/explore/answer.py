@@ -1,18 +1,29 @@
-"""What a fold buys and what it costs: explorations beside Table 1 and the smooth shell."""
+"""What explorations have come to: their tables, beside Table 1 and the smooth shell."""
 
 import csv
 import io
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Sequence
+from dataclasses import dataclass, field
 from pathlib import Path
+from typing import TypeVar
 
 from foldshell.files.errors import InputError
+from foldshell.files.whole import read_json
+from foldshell.records.rivals import FOUND, SMOOTH, TABLE, JudgedRow, ResizedRow, name_kind
+from foldshell.records.summary import SummaryRow
+from foldshell.records.table import read_rows
+from foldshell.settings.field import Plain
+
+Record = TypeVar("Record")
+MEASURES = ("paper", "reinforced")
+KINDS = (FOUND, TABLE, SMOOTH)
 
 
 @dataclass(frozen=True)
 class Point:
-    """A design of an exploration: volume (m3), least buckling factor, panels, where it comes from
-    (table, smooth, found), whether it keeps all limits."""
+    """A design of an exploration on the mesh of its search: volume (m3), least buckling factor,
+    panels, what it is, zig-zag and strip lines, length and depth of folds (m), area (m2), largest
+    strain of an edge, planarity, share of the plan that it covers."""
 
     name: str
     volume: float
@@ -20,38 +31,76 @@ class Point:
     panels: int
     kind: str
     feasible: bool
+    state: str = "sized"
+    layout: tuple[int, int] | None = None
+    edge_beam: bool = False
+    creases: float = 0.0
+    depth: float = 0.0
+    area: float = 0.0
+    strain: float | None = None
+    planarity: float | None = None
+    coverage: float | None = None
 
 
 @dataclass(frozen=True)
 class Searched:
-    """An exploration: its name, its points, the confirmed volumes (m3) by candidate."""
+    """An exploration: its points, the confirmed designs, the rivals, and what was searched."""
 
     name: str
     points: tuple[Point, ...]
-    confirmed: dict[str, float]
+    confirmed: tuple[SummaryRow, ...] = ()
+    resized: tuple[ResizedRow, ...] = ()
+    judged: dict[str, tuple[JudgedRow, ...]] = field(default_factory=dict)
+    about: Plain = field(default_factory=dict)
+    tried: int = 0
+
+    @property
+    def title(self) -> str:
+        """What roof it is, in words."""
+        base = self.about.get("exploration", {}).get("base")
+        if not base:
+            return self.name
+        edges = {"zigzag": "zig-zag edges", "strip": "strip edges", "all": "all edges"}
+        return f"{base['surface']}, {edges.get(base['support'], base['support'])}"
 
     def of(self, kind: str) -> list[Point]:
         """Return the points of a kind, the lightest first; found ones keep all limits."""
-        kept = [p for p in self.points if p.kind == kind and (p.feasible or kind != "found")]
+        kept = [p for p in self.points if p.kind == kind and (p.feasible or kind != FOUND)]
         return sorted(kept, key=lambda point: (point.volume, point.name))
 
-    def lightest(self, factor: float) -> Point | None:
-        """Return the lightest found design with at least a buckling factor."""
-        kept = [point for point in self.of("found") if point.factor >= factor]
-        return kept[0] if kept else None
+    def point_of(self, design: str) -> Point | None:
+        """Return the point of a design whose name ends in that of a candidate."""
+        return next((point for point in self.points if design.endswith(point.name)), None)
 
-    @property
-    def front(self) -> list[Point]:
-        """The found designs that none beats in both volume and buckling factor."""
-        front: list[Point] = []
-        for point in self.of("found"):
-            if not front or point.factor > front[-1].factor:
-                front.append(point)
-        return front
+    def judged_as(self, measure: str, kind: str) -> JudgedRow | None:
+        """Return the row of a kind by a measure, none where it has no volume."""
+        rows = self.judged.get(measure, ())
+        return next((row for row in rows if row.kind == kind and row.volume_m3), None)
+
+    def resized_as(self, kind: str) -> list[ResizedRow]:
+        """Return the rows of a kind that were sized and keep their factor within 1 %."""
+        return [
+            row for row in self.resized
+            if row.kind == kind and row.state == "sized" and row.volume_m3
+            and (row.buckling_factor_min is None or row.buckling_factor_min > 0.99 * row.factor_due)
+        ]  # fmt: skip
+
+    def resized_for(self, kind: str, factor: float) -> ResizedRow | None:
+        """Return the row of a kind for one buckling factor."""
+        return next((row for row in self.resized_as(kind) if row.factor_due == factor), None)
+
+
+def find_front(points: Iterable[Point], gain: Callable[[Point], float]) -> list[Point]:
+    """Return the points that none beats in both volume and what `gain` gives (more is better)."""
+    front: list[Point] = []
+    for point in sorted(points, key=lambda one: (one.volume, -gain(one), one.name)):
+        if not front or gain(point) > gain(front[-1]):
+            front.append(point)
+    return front
 
 
 def read_searched(table: str | Path) -> Searched:
-    """Read explore.tsv of an exploration, and confirmed.csv beside it where there is one.
+    """Read explore.tsv of an exploration, and what stands beside it: confirmed.csv, rivals/.
 
     Raises
     ------
@@ -61,70 +110,70 @@ def read_searched(table: str | Path) -> Searched:
     path = Path(table)
     try:
         rows = list(csv.DictReader(io.StringIO(path.read_text(encoding="utf-8")), delimiter="\t"))
-        points = tuple(_make_point(row) for row in rows if row["volume_m3"])
-        confirmed = path.with_name("confirmed.csv")
-        text = confirmed.read_text(encoding="utf-8") if confirmed.is_file() else ""
-        told = {row["design"][-5:]: float(row["volume_m3"])
-                for row in csv.DictReader(io.StringIO(text)) if row["volume_m3"]}  # fmt: skip
+        first = _read_first(path.parent / "rounds/00/candidates.tsv")
+        points = tuple(_make_point(row, first) for row in rows if row["volume_m3"])
     except (OSError, KeyError, ValueError) as error:
         raise InputError(f"{path}: is not the table of an exploration: {error}") from None
-    return Searched(path.parent.name, points, told)
+    rivals = path.parent / "rivals"
+    about = rivals / "about.json"
+    return Searched(
+        path.parent.name,
+        points,
+        _read_beside(path.with_name("confirmed.csv"), SummaryRow),
+        _read_beside(rivals / "resized.csv", ResizedRow),
+        {measure: _read_beside(rivals / f"{measure}.csv", JudgedRow) for measure in MEASURES},
+        read_json(about) if about.is_file() else {},
+        sum(not row["candidate"].startswith("00") for row in rows),
+    )
 
 
-def _make_point(row: dict[str, str]) -> Point:
-    first = row["candidate"].startswith("00")
-    kind = ("smooth" if row["pattern"] == "smooth" else "table") if first else "found"
+def _read_beside(path: Path, kind: type[Record]) -> tuple[Record, ...]:
+    """Return the rows of a table that may be missing or empty."""
+    there = path.is_file() and path.stat().st_size
+    return tuple(read_rows(path, kind)) if there else ()
+
+
+def _read_first(path: Path) -> dict[str, dict[str, str]]:
+    """Return the columns of the designs of round 0, which the table of an exploration leaves out
+    where they are no variables."""
+    if not path.is_file():
+        return {}
+    rows = csv.DictReader(io.StringIO(path.read_text(encoding="utf-8")), delimiter="\t")
+    return {row["design"]: row for row in rows}
+
+
+def _make_point(row: dict[str, str], first: dict[str, dict[str, str]]) -> Point:
+    given = row | first.get(row["candidate"], {})
+    layout = (int(given["zigzag"]), int(given["strip"])) if "zigzag" in given else None
     return Point(
         row["candidate"], float(row["volume_m3"]), float(row["buckling_factor_min"] or "inf"),
-        int(row["panels"]), kind, row["feasible"] == "True",
+        int(row["panels"]), name_kind(row["candidate"], row["pattern"]),
+        row["feasible"] == "True", row["state"], layout,
+        float(given.get("edge_beam_depth_m") or 0) > 0,
+        *(float(row[key] or 0) for key in ("crease_length_m", "depth_m", "area_m2")),
+        *(float(row[key]) if row[key] else None for key in
+          ("edge_strain_max", "planarity_max", "plan_coverage")),
     )  # fmt: skip
 
 
-def write_answer(searched: Sequence[Searched], picture: str) -> str:
-    """Return the answer as Markdown: a table of all explorations, and what it comes to."""
-    header = (
-        "| exploration | lightest of the table [m³] (factor) | smooth shell [m³] (factor) | "
-        "lightest found [m³] (factor, panels) | confirmed [m³] | found against table | "
-        "found at the smooth shell's factor [m³] |"
-    )
-    lines = [header, "|---" * 7 + "|"]
-    lines += ["| " + " | ".join(_make_row(one)) + " |" for one in searched]
-    words = [_conclude(one) for one in searched]
-    chart = f"![concrete against buckling factor]({picture})"
-    title = "# What the fold buys, and what it costs"
-    return "\n".join([title, "", *lines, "", chart, "", *words, ""])
+def choose_point(one: Searched, kind: str) -> Point | None:
+    """Return the point of the shell of a kind that was sized again, else the lightest one."""
+    row = one.judged_as("paper", kind)
+    known = one.point_of(row.design) if row else None
+    return known or next(iter(one.of(kind)), None)
 
 
-def _make_row(one: Searched) -> list[str]:
-    table, smooth, found = (one.of(kind)[:1] for kind in ("table", "smooth", "found"))
-    same = one.lightest(smooth[0].factor) if smooth else None
-    confirmed = one.confirmed.get(found[0].name) if found else None
-    gain = f"{100 * (found[0].volume / table[0].volume - 1):+.0f} %" if found and table else "-"
+def list_found(searched: Sequence[Searched]) -> list[str]:
+    """Return the names of the designs that were confirmed: sized, the limit of the factor kept
+    within 1 %, and both codes of one mind."""
     return [
-        one.name,
-        _say(table[0]) if table else "-",
-        _say(smooth[0]) if smooth else "-",
-        f"{found[0].volume:.1f} ({found[0].factor:.1f}, {found[0].panels})" if found else "none",
-        f"{confirmed:.1f}" if confirmed else "-",
-        gain,
-        f"{same.volume:.1f} ({same.factor:.1f})" if same else "-",
-    ]
+        row.design
+        for one in searched
+        for row in one.confirmed
+        if row.state in ("converged", "at_minimum_thickness") and row.crosscheck == "pass"
+        and (row.buckling_factor_min or float("inf")) > 0.99 * _least_factor(one)
+    ]  # fmt: skip
 
 
-def _say(point: Point) -> str:
-    return f"{point.volume:.1f} ({point.factor:.1f})"
-
-
-def _conclude(one: Searched) -> str:
-    """Say in a sentence what a search found beside the table and the smooth shell."""
-    table, smooth, found = (one.of(kind)[:1] for kind in ("table", "smooth", "found"))
-    if not (found and smooth and table):
-        return f"- {one.name}: no design keeps all limits, or there is nothing to compare with."
-    best, plain = found[0], smooth[0]
-    less = "less" if best.volume < plain.volume else "more"
-    change = abs(100 * (best.volume / plain.volume - 1))
-    return (
-        f"- {one.name}: {100 * (1 - best.volume / table[0].volume):.0f} % less concrete than the "
-        f"lightest of the table; {change:.0f} % {less} than the smooth shell, at "
-        f"{best.factor / plain.factor:.1f} times its buckling factor."
-    )
+def _least_factor(one: Searched) -> float:
+    return one.about.get("exploration", {}).get("limits", {}).get("buckling_factor_min", 0.0)

@@ -24,11 +24,19 @@ def choose_rivals(
 ) -> list[CandidateRecord]:
     """Return the best design that was found, the lightest row of the table, the smooth shell."""
     first = [record for record in records if record.candidate.startswith("00")]
-    rows = [r for r in first if r.columns["pattern"] != "smooth" and r.state == "sized"]
+    rows = [r for r in first if r.state == "sized" and _is_density(exploration, r)]
     smooth = [record for record in first if record.columns["pattern"] == "smooth"]
     return [
         *choose_best(exploration, records, 1), *rank_by(rows, "volume_m3")[:1], *smooth[:1]
     ]  # fmt: skip
+
+
+def _is_density(exploration: Exploration, record: CandidateRecord) -> bool:
+    """Tell whether a row of the table differs from the base in its counts and variables alone."""
+    free = {"zigzag", "strip", *exploration.columns}
+    same = (record.columns.get(key) == value for key, value in exploration.base.items()
+            if key not in free)  # fmt: skip
+    return record.columns["pattern"] != "smooth" and all(same)
 
 
 def describe_exploration(

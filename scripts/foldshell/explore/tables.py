@@ -129,3 +129,15 @@ def describe_search(exploration: Exploration, records: Sequence[CandidateRecord]
         f"{exploration.name}: {len(kept)} of {len(records)} candidates keep all limits; best "
         f"{aim} {getattr(best, aim):.4g} ({best.candidate}){more}"
     )
+
+
+def join_tables(path: str | Path, tables: Sequence[str | Path], names: Sequence[str]) -> None:
+    """Write the rows of some designs of several tables of designs as one table."""
+    rows = {}
+    for table in tables:
+        with Path(table).open(encoding="utf-8", newline="") as stream:
+            rows |= {row["design"]: row for row in csv.DictReader(stream, delimiter="\t")}
+    lines = ["\t".join(COLUMNS)]
+    lines += ["\t".join(rows[name].get(column) or "" for column in COLUMNS)
+              for name in names if name in rows]  # fmt: skip
+    write_text_if_changed(path, "\n".join(lines) + "\n")

@@ -1,14 +1,10 @@
 """The report of a study: cover, contact sheet, comparison, claims, verification, settings."""
 
-import base64
-import io
 import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
-
-from PIL import Image
 
 from foldshell.files.whole import Json, read_json
 from foldshell.records.analysis import AnalysisRecord, read_analysis
@@ -20,7 +16,9 @@ from foldshell.records.summary import SummaryRow
 from foldshell.records.table import read_rows
 from foldshell.report.beside import list_exports
 from foldshell.report.checks import Check, describe_share, find_governing, read_checks
+from foldshell.report.embedded import embed_picture
 from foldshell.report.engineering import list_engineering, read_verdict
+from foldshell.report.fold_answer import Part, read_chapter
 from foldshell.report.loads_section import describe_loads
 from foldshell.report.markdown import render_markdown
 from foldshell.report.markup import Table, make_table, render
@@ -32,7 +30,6 @@ from foldshell.report.verification import make_verification
 from foldshell.results.summary import hash_study
 from foldshell.settings.stage import StageSettings
 
-FIGURE_WIDTH = 800
 COUNTED = re.compile(r"\b\d+ (?=cracked panels)")
 """A number of a design in the name of a check, which is the same check for all."""
 SIZE_MAX = 20_000_000
@@ -67,17 +64,24 @@ class StudyFiles:
     figures: Mapping[str, str | Path]
     claims: Sequence[ClaimRecord]
     verification: str
+    chapter: Sequence[Part] = ()
 
 
 def read_study(
-    study: str, summary: str | Path, results: str | Path, tiles: str | Path,
-    figures: Mapping[str, str | Path], claims: str | Path | None, verification: str,
-) -> StudyFiles:  # fmt: skip
-    """Read summary.csv, the files of each design in `results`, tiles.json and claims.json."""
-    rows = read_rows(summary, SummaryRow)
+    study: str,
+    paths: Mapping[str, str | Path | Sequence[str]],
+    results: str | Path,
+    figures: Mapping[str, str | Path],
+) -> StudyFiles:
+    """Read what a report is made of: summary.csv, tiles.json, the files of designs in `results`;
+    the chapter of verification, claims.json, the answer of explorations where `paths` has them."""
+    rows = read_rows(paths["summary"], SummaryRow)
     designs = [_read_design(row, Path(results, row.design)) for row in rows]
-    judged = read_records(claims, ClaimRecord) if claims else []
-    return StudyFiles(study, designs, read_json(tiles), figures, judged, verification)
+    judged = read_records(paths["claims"], ClaimRecord) if "claims" in paths else []
+    chapter = read_chapter(paths.get("fold", ()))
+    chapters = [paths["verification"]] if "verification" in paths else []
+    text = "".join(Path(path).read_text(encoding="utf-8") for path in chapters)
+    return StudyFiles(study, designs, read_json(paths["tiles"]), figures, judged, text, chapter)
 
 
 def _read_design(row: SummaryRow, folder: Path) -> DesignEntry:
@@ -125,6 +129,7 @@ def write_study_report(
         figures=[_show_figure(name, path) for name, path in files.figures.items()],
         left_out=left_out,
         claims=files.claims,
+        chapter=files.chapter,
         verification=make_verification(files.designs),
         benchmarks=render_markdown(files.verification),
         loads=describe_loads(settings),
@@ -202,11 +207,5 @@ def list_worst(designs: Sequence[DesignEntry]) -> Table:
 
 
 def _show_figure(name: str, path: str | Path) -> dict[str, str]:
-    """Return a chart as a data URI, reduced to `FIGURE_WIDTH` pixels or a little more."""
-    with Image.open(path) as picture:
-        whole = picture.convert("RGB")
-        small = whole.reduce(max(1, whole.width // FIGURE_WIDTH))
-    stream = io.BytesIO()
-    small.save(stream, format="WEBP", quality=80, method=2)
-    data = "data:image/webp;base64," + base64.b64encode(stream.getvalue()).decode("ascii")
-    return {"name": name.replace("_", " "), "data": data}
+    """Return a chart with its name, as a data URI."""
+    return {"name": name.replace("_", " "), "data": embed_picture(path)}

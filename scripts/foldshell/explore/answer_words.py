@@ -1,0 +1,189 @@
+"""The sentences of the answer; every one follows from numbers of the explorations."""
+
+from collections.abc import Callable, Iterator, Sequence
+
+from foldshell.explore.answer import Searched, choose_point
+from foldshell.explore.bounds import AT_BOUND
+from foldshell.records.rivals import FOUND, SMOOTH, TABLE, JudgedRow
+
+NAMES = {"found": "the found pattern", "table": "the lightest row of the table",
+         "smooth": "the smooth shell"}  # fmt: skip
+WORDS = {"rest_fold_angle_deg": "rest fold angle", "sector_angle_deg": "sector angle",
+         "strip_grading": "grading of strips", "zigzag": "zig-zag lines", "strip": "strip lines",
+         "height_m": "height", "span_m": "span"}  # fmt: skip
+ALIKE = 0.01
+"""Relative difference within which two numbers count as alike; that of meshes is larger."""
+THIN = 1.02
+"""Mean thickness over the least one up to which a shell counts as thin nearly everywhere."""
+Value = Callable[[JudgedRow], float | None]
+
+
+def compare(
+    searched: Sequence[Searched], measure: str, rival: str, value: Value
+) -> Iterator[tuple[str, float]]:
+    """Yield each roof with its found design over a rival in what `value` gives, less 1."""
+    for one in searched:
+        found, other = (one.judged_as(measure, kind) for kind in (FOUND, rival))
+        first, second = (row and value(row) for row in (found, other))
+        if first and second:
+            yield one.title, first / second - 1
+
+
+def compare_covered(searched: Sequence[Searched], measure: str) -> Iterator[tuple[str, float]]:
+    """Yield each roof with the concrete of found over smooth shell for each m2 of covered plan."""
+    for one in searched:
+        rows = [one.judged_as(measure, kind) for kind in (FOUND, SMOOTH)]
+        points = [choose_point(one, kind) for kind in (FOUND, SMOOTH)]
+        if all(rows) and all(point and point.coverage for point in points):
+            found, smooth = (
+                row.volume_m3 / point.coverage for row, point in zip(rows, points, strict=True)
+            )
+            yield one.title, found / smooth - 1
+
+
+def say_changes(pairs: Sequence[tuple[str, float]]) -> str:
+    """Return ratios in words, the least first: roof and per cent."""
+    ordered = sorted(pairs, key=lambda pair: (pair[1], pair[0]))
+    return "; ".join(f"{title} {100 * change:+.0f} %" for title, change in ordered)
+
+
+def count_less(pairs: Sequence[tuple[str, float]]) -> str:
+    """Return how many are less, alike, more: "less on 3 of 6 roofs, alike on 1, more on 2"."""
+    less = sum(change < -ALIKE for _, change in pairs)
+    more = sum(change > ALIKE for _, change in pairs)
+    words = [f"less on {less} of {len(pairs)} {'roof' if len(pairs) == 1 else 'roofs'}"]
+    alike = len(pairs) - less - more
+    words += [f"alike (within {100 * ALIKE:g} %) on {alike}"] * bool(alike)
+    return ", ".join([*words, *([f"more on {more}"] * bool(more))])
+
+
+def list_short(searched: Sequence[Searched]) -> list[str]:
+    """Return the answer in a few sentences: concrete by both measures, against both rivals."""
+    lines = []
+    for measure, words in (
+        ("paper", "By the paper's measure"), ("reinforced", "With reinforcement"),
+    ):  # fmt: skip
+        for rival in (TABLE, SMOOTH):
+            if pairs := list(compare(searched, measure, rival, lambda row: row.volume_m3)):
+                lines.append(
+                    f"- **{words}, against {NAMES[rival]}**: concrete {count_less(pairs)} "
+                    f"({say_changes(pairs)})."
+                )
+        if pairs := list(compare_covered(searched, measure)):
+            lines.append(
+                f"- {words}, for each m² of plan that is covered, against {NAMES[SMOOTH]}: "
+                f"concrete {count_less(pairs)} ({say_changes(pairs)})."
+            )
+    return [*lines, *list_verdicts(searched)] if lines else ["- Nothing has been compared yet."]
+
+
+def list_verdicts(searched: Sequence[Searched]) -> list[str]:
+    """Return how many shells pass the engineering verdict, by the measure they were sized by."""
+    lines = []
+    for measure, words in (
+        ("paper", "Sized by the paper's measure"), ("reinforced", "Sized with reinforcement"),
+    ):  # fmt: skip
+        counts = []
+        for kind in (FOUND, TABLE, SMOOTH):
+            rows = [row for one in searched if (row := one.judged_as(measure, kind))]
+            passed = sum(row.engineering == "passes" for row in rows)
+            counts += [f"{passed} of {len(rows)} {NAMES[kind].removeprefix('the ')}"] * bool(rows)
+        if counts:
+            lines.append(f"- {words}, the engineering verdict is passed by {', '.join(counts)}.")
+    return lines
+
+
+def list_factors_won(searched: Sequence[Searched]) -> list[str]:
+    """Return, for each roof, at which buckling factors the fold or the smooth shell is lighter."""
+    lines = []
+    for one in searched:
+        words: dict[str, list[str]] = {}
+        for factor in sorted({row.factor_due for row in one.resized}):
+            found, smooth = (one.resized_for(kind, factor) for kind in (FOUND, SMOOTH))
+            words.setdefault(_name_winner(found, smooth), []).append(f"{factor:g}")
+        if words:
+            parts = [f"{winner} at a factor of {', '.join(f)}" for winner, f in words.items()]
+            lines.append(f"- {one.title}: {'; '.join(parts)}.")
+    return lines
+
+
+def _name_winner(found, smooth) -> str:
+    if not (found and smooth):
+        kept = "the found pattern" if found else "the smooth shell" if smooth else "neither"
+        return f"only {kept} keeps its factor" if found or smooth else "neither keeps its factor"
+    ratio = found.volume_m3 / smooth.volume_m3
+    if abs(ratio - 1) <= ALIKE:
+        return "both are alike"
+    winner = "the fold is lighter" if ratio < 1 else "the smooth shell is lighter"
+    return f"{winner} ({100 * (min(ratio, 1 / ratio) - 1):.0f} %)"
+
+
+def list_bought(searched: Sequence[Searched]) -> list[str]:
+    """Return what else differs from the smooth shell at the limit of the search: less or more."""
+    asked = (
+        ("paper", "buckling factor, both sized for the limit of the search",
+         lambda row: row.buckling_factor_min),
+        ("paper", "vertical displacement", lambda row: row.displacement_vertical_max_m),
+        ("reinforced", "concrete with reinforcement", lambda row: row.volume_m3),
+        ("reinforced", "steel", lambda row: row.steel_kg),
+        ("reinforced", "CO₂ of concrete, steel and folds", lambda row: row.co2_kg),
+    )  # fmt: skip
+    lines = []
+    for measure, words, value in asked:
+        if pairs := list(compare(searched, measure, SMOOTH, value)):
+            lines.append(f"- {words}: {count_less(pairs)} ({say_changes(pairs)}).")
+    return lines
+
+
+def list_costs(searched: Sequence[Searched]) -> list[str]:
+    """Return what the fold takes that a smooth shell does not: sheet, folds, shear."""
+    lines, sheets, covered, folds, shear = [], [], [], [], []
+    for one in searched:
+        found, smooth = (choose_point(one, kind) for kind in (FOUND, SMOOTH))
+        if found and smooth and smooth.area:
+            sheets.append((one.title, found.area / smooth.area - 1))
+        if found and smooth and found.coverage and smooth.coverage:
+            shares = f"{100 * found.coverage:.1f} %, {100 * smooth.coverage:.1f} %"
+            covered.append(f"{one.title} {shares}")
+        if found:
+            folds.append(f"{one.title} {found.creases:.0f} m in {found.panels} panels")
+        rows = [one.judged_as("reinforced", kind) for kind in (FOUND, TABLE, SMOOTH)]
+        if all(row and row.shear_share is not None for row in rows):
+            shares = ", ".join(f"{100 * row.shear_share:.0f} %" for row in rows)
+            shear.append(f"{one.title} {shares}")
+    if sheets:
+        lines.append(f"- Area of the sheet over that of the smooth shell: {say_changes(sheets)}.")
+    if covered:
+        lines.append(f"- Plan covered (found, smooth shell): {'; '.join(covered)}.")
+    if folds:
+        lines.append(f"- Folds to make: {'; '.join(folds)}.")
+    if shear:
+        lines.append(
+            "- Panels whose shear is over v_Rd,c after sizing with reinforcement (found, lightest "
+            f"of the table, smooth): {'; '.join(shear)}."
+        )
+    return lines
+
+
+def list_limits(searched: Sequence[Searched]) -> list[str]:
+    """Return where something other than the structure decides: ends of ranges, least thickness."""
+    lines, thin = [], []
+    for one in searched:
+        if bounds := one.about.get("bounds"):
+            words = ", ".join(f"{WORDS.get(name, name)} at {end:g}" for name, end in bounds)
+            lines.append(f"- {one.title}: the best stands at the end of a range: {words}.")
+        row, least = one.judged_as("paper", FOUND), one.about.get("least_thickness_m")
+        if row and least and (row.volume_per_area_m or 0) < THIN * least:
+            thin.append(one.title)
+    if lines:
+        lines.append(
+            f"- A value counts as at the end within {100 * AT_BOUND:g} % of the range: the limit "
+            "that was set decides there, not the structure."
+        )
+    if thin:
+        lines.append(
+            f"- Nearly all panels stand at the least thickness on {len(thin)} of {len(searched)} "
+            f"roofs ({'; '.join(thin)}): concrete is the area of the sheet times that thickness "
+            "there, and a search can only save area."
+        )
+    return lines or ["- No best design stands at the end of a range or at the least thickness."]
