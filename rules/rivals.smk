@@ -1,4 +1,4 @@
-# What the best of an exploration is held against: the lightest row of the table and the smooth
+# What the best of an exploration is held against: its base in the table and the smooth
 # shell, sized for several buckling factors, by the paper's measure and for reinforced concrete.
 
 

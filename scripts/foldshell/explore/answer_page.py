@@ -10,8 +10,8 @@ from foldshell.records.summary import SummaryRow
 
 TITLE = "# What the fold buys, and what it costs"
 RULE = (
-    "All shells of a roof (the best design that was found, the lightest row of the table, the "
-    "smooth shell) are sized by one rule, on one mesh, for one limit of the buckling factor: "
+    "All shells of a roof (the best design that was found, the row of the table that is the base, "
+    "the smooth shell) are sized by one rule, on one mesh, for one limit of the buckling factor: "
     "`optimality`, which takes concrete away while it keeps that factor. The rule of a search may "
     "be another one."
 )

@@ -6,7 +6,7 @@ from foldshell.explore.answer import Searched, choose_point
 from foldshell.explore.bounds import AT_BOUND
 from foldshell.records.rivals import FOUND, SMOOTH, TABLE, JudgedRow
 
-NAMES = {"found": "the found pattern", "table": "the lightest row of the table",
+NAMES = {"found": "the found pattern", "table": "the row of the table that is the base",
          "smooth": "the smooth shell"}  # fmt: skip
 WORDS = {"rest_fold_angle_deg": "rest fold angle", "sector_angle_deg": "sector angle",
          "strip_grading": "grading of strips", "zigzag": "zig-zag lines", "strip": "strip lines",
@@ -74,7 +74,22 @@ def list_short(searched: Sequence[Searched]) -> list[str]:
                 f"- {words}, for each m² of plan that is covered, against {NAMES[SMOOTH]}: "
                 f"concrete {count_less(pairs)} ({say_changes(pairs)})."
             )
-    return [*lines, *list_verdicts(searched)] if lines else ["- Nothing has been compared yet."]
+    alone = lines or ["- Nothing has been sized alike yet."]
+    return [*list_lightest(searched), *alone, *list_verdicts(searched)]
+
+
+def list_lightest(searched: Sequence[Searched]) -> list[str]:
+    """Return what the searches found beside the lightest row of the table, by their own rule."""
+    pairs = []
+    for one in searched:
+        rows, found = one.of(TABLE), one.of(FOUND)
+        rows = [point for point in rows if not point.edge_beam and point.state == "sized"]
+        if rows and found:
+            pairs.append((one.title, found[0].volume / rows[0].volume - 1))
+    words = (
+        "- **On the mesh and by the rule of each search, against the lightest row of the table**"
+    )
+    return [f"{words}: concrete {count_less(pairs)} ({say_changes(pairs)})."] if pairs else []
 
 
 def list_verdicts(searched: Sequence[Searched]) -> list[str]:
@@ -159,8 +174,8 @@ def list_costs(searched: Sequence[Searched]) -> list[str]:
         lines.append(f"- Folds to make: {'; '.join(folds)}.")
     if shear:
         lines.append(
-            "- Panels whose shear is over v_Rd,c after sizing with reinforcement (found, lightest "
-            f"of the table, smooth): {'; '.join(shear)}."
+            "- Panels whose shear is over v_Rd,c after sizing with reinforcement (found, base in "
+            f"the table, smooth): {'; '.join(shear)}."
         )
     return lines
 

@@ -1,4 +1,4 @@
-"""What the best of an exploration is held against: the lightest of the table, the smooth shell."""
+"""What the best of an exploration is held against: its base in the table, the smooth shell."""
 
 from collections.abc import Sequence
 from dataclasses import replace
@@ -15,6 +15,7 @@ from foldshell.settings.stage import StageSettings
 
 RULE = "optimality"
 """All shells are compared by the one rule that keeps a buckling factor while it takes away."""
+COUNTS = ("zigzag", "strip")
 FACTORS = (6.0, 12.0)
 """Buckling factors that shells are sized for, besides the limit of the search."""
 
@@ -22,18 +23,19 @@ FACTORS = (6.0, 12.0)
 def choose_rivals(
     exploration: Exploration, records: Sequence[CandidateRecord]
 ) -> list[CandidateRecord]:
-    """Return the best design that was found, the lightest row of the table, the smooth shell."""
+    """Return the best design that was found, the row of the table that is the base itself (where
+    there is none the lightest), the smooth shell."""
     first = [record for record in records if record.candidate.startswith("00")]
     rows = [r for r in first if r.state == "sized" and _is_density(exploration, r)]
     smooth = [record for record in first if record.columns["pattern"] == "smooth"]
-    return [
-        *choose_best(exploration, records, 1), *rank_by(rows, "volume_m3")[:1], *smooth[:1]
-    ]  # fmt: skip
+    own = [r for r in rows if all(r.columns[key] == exploration.base[key] for key in COUNTS)]
+    table = (own or rank_by(rows, "volume_m3"))[:1]
+    return [*choose_best(exploration, records, 1), *table, *smooth[:1]]
 
 
 def _is_density(exploration: Exploration, record: CandidateRecord) -> bool:
     """Tell whether a row of the table differs from the base in its counts and variables alone."""
-    free = {"zigzag", "strip", *exploration.columns}
+    free = {*COUNTS, *exploration.columns}
     same = (record.columns.get(key) == value for key, value in exploration.base.items()
             if key not in free)  # fmt: skip
     return record.columns["pattern"] != "smooth" and all(same)

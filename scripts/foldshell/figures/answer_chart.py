@@ -11,7 +11,7 @@ COLOURS = {FOUND: "#0072B2", TABLE: "#333333", SMOOTH: "#A8447F"}
 WORDS = {FOUND: "found", TABLE: "rows of the table", SMOOTH: "smooth shell"}
 MARKS = {FOUND: "o", TABLE: "s", SMOOTH: "^"}
 FRONT = "#B35C00"
-RESIZED = {FOUND: "best of the found", TABLE: "lightest row", SMOOTH: "smooth shell"}
+RESIZED = {FOUND: "best of the found", TABLE: "base in the table", SMOOTH: "smooth shell"}
 
 
 def draw_factors(path: str | Path, searched: Sequence[Searched]) -> None:

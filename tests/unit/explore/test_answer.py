@@ -39,7 +39,11 @@ def test_fronts_keep_what_none_beats_in_both(table):
 def test_sentences_follow_from_the_numbers(table):
     """50 of 98 m3 of the table, of 58 of the smooth shell: -49 and -14 %; at 12 it is 80 of 70."""
     text = write_answer([read_searched(table)], PICTURES)
-    assert "against the lightest row of the table**: concrete less on 1 of 1 roof" in text
+    assert "against the row of the table that is the base**: concrete less on 1 of 1 roof" in text
+    assert (
+        "lightest row of the table**: concrete less on 1 of 1 roof (arch, strip edges -50 %)"
+        in text
+    )
     assert "(arch, strip edges -49 %)" in text and "(arch, strip edges -14 %)" in text
     assert (
         "- arch, strip edges: the fold is lighter (-14 %) at a factor of 4; the fold is lighter "
@@ -65,7 +69,7 @@ def test_other_numbers_give_other_sentences(table):
     text = write_answer([one], PICTURES)
     assert "concrete less on 0 of 1 roof, more on 1 (arch, strip edges +21 %)" in text
     assert "No best design stands at the end of a range or at the least thickness" in text
-    assert "passed by 1 of 1 found pattern, 0 of 1 lightest row of the table" in text
+    assert "passed by 1 of 1 found pattern, 0 of 1 row of the table that is the base" in text
 
 
 def test_concrete_counts_for_each_covered_m2(table):
@@ -116,7 +120,7 @@ def test_an_exploration_alone_is_a_whole_page(table, tmp_path):
     bare.parent.mkdir()
     bare.write_text(table.read_text())
     text = write_answer([read_searched(bare)], PICTURES)
-    assert "Nothing has been compared yet" in text and "By the engineering verdict" not in text
+    assert "Nothing has been sized alike yet" in text and "By the engineering verdict" not in text
     assert write_answer([Searched("empty", ())], PICTURES).startswith("# What the fold buys")
 
 

@@ -32,9 +32,11 @@ RECORDS = [
 ]  # fmt: skip
 
 
-def test_rivals_are_the_best_the_lightest_density_and_the_smooth_shell():
-    """A row with an edge beam is another roof."""
-    assert [r.candidate for r in choose_rivals(EXPLORATION, RECORDS)] == ["01-00", "00-01", "00-03"]
+def test_rivals_are_the_best_the_base_in_the_table_and_the_smooth_shell():
+    """A row with an edge beam is another roof; without the base the lightest density counts."""
+    assert [r.candidate for r in choose_rivals(EXPLORATION, RECORDS)] == ["01-00", "00-00", "00-03"]
+    others = [make_record("00-04", 85.0, zigzag=30), *RECORDS[1:]]
+    assert [r.candidate for r in choose_rivals(EXPLORATION, others)] == ["01-00", "00-01", "00-03"]
 
 
 def test_a_range_whose_end_decides_is_told():
@@ -64,14 +66,14 @@ def test_every_shell_is_sized_by_one_rule_for_one_factor(monkeypatch):
         factor = exploration.limits.buckling_factor_min
         asked.append((name, factor, exploration.search.rule))
         kept = 8.0 if name == "00-03" else factor
-        state = "not_converged" if name == "00-01" else "sized"
+        state = "not_converged" if name == "00-00" else "sized"
         return replace(make_record(name, 10 * factor), buckling_factor_min=kept, state=state)
 
     monkeypatch.setattr(rivals, "evaluate", evaluate)
     rows = resize(EXPLORATION, RECORDS, None)
     assert {rule for _, _, rule in asked} == {"optimality"}
     assert [factor for name, factor, _ in asked if name == "00-03"] == [4.0, 12.0]
-    assert [factor for name, factor, _ in asked if name == "00-01"] == [4.0, 6.0, 7.13, 12.0]
+    assert [factor for name, factor, _ in asked if name == "00-00"] == [4.0, 6.0, 7.13, 12.0]
     smooth = [row for row in rows if row.kind == "smooth"]
     assert [row.volume_m3 for row in smooth] == pytest.approx([40.0, 40.0, 40.0, 120.0])
     assert len(rows) == 12 and {row.kind for row in rows} == {"found", "table", "smooth"}
