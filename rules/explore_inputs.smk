@@ -45,6 +45,7 @@ def earlier(wildcards):
 MEASURES = {
     "paper": {
         "rule": "optimality",
+        "measure": "panel_mean",
         "thinning_buckling_factor_min": EXPLORATION.limits.buckling_factor_min,
     },
     "reinforced": read_config(f"{HOME}/config/reinforced.yaml")["sizing"],

@@ -74,7 +74,8 @@ def test_a_small_search_makes_a_whole_answer(code, tmp_path):
     home = folder / "results/explorations"
     page = (home / "function_follows_fold.md").read_text()
     for words in ("## In short", "against the smooth shell", "## Concrete against buckling factor",
-                  "## Concrete against panels", "## By the engineering verdict", "base in the table",
+                  "## Concrete against panels", "## By the engineering verdict",
+                  "base in the table",
                   "## What it buys", "## What it costs", "## Where limits decide",
                   "explore beside"):  # fmt: skip
         assert words in page, words

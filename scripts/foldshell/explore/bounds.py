@@ -20,9 +20,9 @@ def list_bounds(
         for record in records:
             if record.candidate.startswith("00"):
                 continue
-            share = (float(record.columns[variable.name]) - variable.low) / (
-                variable.high - variable.low
-            )
+            name, width = variable.name, variable.high - variable.low
+            given = record.columns[name] if name in record.columns else record.value_of(name)
+            share = (float(given) - variable.low) / width
             if not AT_BOUND <= share <= 1 - AT_BOUND:
-                found.append((variable.name, variable.low if share < AT_BOUND else variable.high))
+                found.append((name, variable.low if share < AT_BOUND else variable.high))
     return found

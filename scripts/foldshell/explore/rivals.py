@@ -9,7 +9,7 @@ from foldshell.explore.fronts import rank_by
 from foldshell.explore.rounds import choose_best
 from foldshell.records.candidate import CandidateRecord
 from foldshell.records.rivals import ResizedRow, name_kind
-from foldshell.settings.exploration import Exploration
+from foldshell.settings.exploration import PAPER, Exploration
 from foldshell.settings.field import Plain
 from foldshell.settings.stage import StageSettings
 
@@ -95,8 +95,9 @@ def _size_for(
 ) -> CandidateRecord:
     given = replace(
         exploration,
-        limits=exploration.limits.changed(buckling_factor_min=factor),
-        search=exploration.search.changed(rule=RULE),
+        aims=("volume_m3",),
+        limits=exploration.limits.changed(buckling_factor_min=factor, verdicts=PAPER),
+        search=exploration.search.changed(rule=RULE, measure="panel_mean"),
     )
     row = {**rival.columns, "design": rival.candidate}
     return evaluate(rival.candidate, row, settings, given)
