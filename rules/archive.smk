@@ -19,6 +19,7 @@ rule archive_study:
         project=str(HOME),
         config=parse_group(type(SETTINGS), config),
         tables=[SETTINGS.designs, *filter(os.path.isfile, [SETTINGS.load_table, SETTINGS.supports])],
+        own=sorted(SETTINGS.own),
         settings=stage_parameters(SETTINGS, "archive"),
     message:
         "archive of {params.tag}"

@@ -25,7 +25,7 @@ LOOP_PARAMS = {
     "resize": {**of_design("zigzag", "strip"), "settings": of_stage("resize")},
     "group": {
         **of_design("span_m"),
-        "classes": SETTINGS.sizing.classes,
+        "classes": lambda wildcards: own_settings(wildcards).sizing.classes,
         "settings": of_stage("analyse"),
     },
     "size": {

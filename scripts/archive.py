@@ -23,9 +23,11 @@ def main(
     project: str | Path,
     config: Plain,
     tables: Sequence[str | Path],
+    own: Sequence[str],
     settings: Plain,
 ) -> None:
-    """Write `<tag>-<first 8 of the result's hash>.zip`, then archive.json, which names it."""
+    """Write `<tag>-<first 8 of the result's hash>.zip`, then archive.json, which names it; `own`
+    are the files of settings that designs name."""
     for library in ("bagit", "rocrate"):
         need_library(library, "archive")
     from foldshell.archive.bag import write_archive
@@ -33,7 +35,7 @@ def main(
     folder = Path(pointer_path).parent
     found = [read_manifest(Path(results, name, "manifest.json")) for name in designs]
     result = hash_data([manifest.result_sha256 for manifest in found])
-    study = Study(tag, tuple(designs), Path(results), folder.parent, Path(project))
+    study = Study(tag, tuple(designs), Path(results), folder.parent, Path(project), tuple(own))
     path = folder / f"{tag}-{result[:8]}.zip"
     date = datetime.now(UTC).date().isoformat()
     options = read_stage(settings, Archive).archive

@@ -27,13 +27,15 @@ LEFT_OUT = "left-out.txt"
 
 @dataclass(frozen=True)
 class Study:
-    """What is archived: tag, designs, results folder, folder of the study in it, project folder."""
+    """What is archived: tag, designs, results folder, folder of the study in it, project folder;
+    `settings` are the files of settings that designs name."""
 
     tag: str
     designs: tuple[str, ...]
     results: Path
     home: Path
     project: Path
+    settings: tuple[str, ...] = ()
 
 
 def list_results(study: Study, fields: bool) -> Iterator[tuple[Path, str]]:
@@ -53,7 +55,7 @@ def list_results(study: Study, fields: bool) -> Iterator[tuple[Path, str]]:
 
 def list_given(study: Study, tables: Iterable[Path]) -> list[str]:
     """Return the files from outside of the results that the jobs of the designs read, but for the
-    tables: target surfaces, crease patterns; as paths relative to the project.
+    tables: target surfaces, crease patterns, settings; as paths relative to the project.
 
     Raises
     ------
@@ -61,7 +63,7 @@ def list_given(study: Study, tables: Iterable[Path]) -> list[str]:
         for one that is outside of the project, or was changed since a job read it.
     """
     known = {path.name for path in tables}
-    found: dict[str, str] = {}
+    found = {path: hash_file(study.project / path) for path in study.settings}
     for design in study.designs:
         for record in read_records(study.results / design):
             found |= record.external

@@ -49,6 +49,7 @@ class DesignRow:
     folded: str | None = _column("folded", default=None)
     file_unit: str | None = _column("file_unit", default=None)
     loads: str | None = _column("loads", default=None)
+    settings: str | None = _column("settings", default=None)
 
     @property
     def panels(self) -> int:
@@ -62,5 +63,6 @@ def make_design_row(columns: Row) -> DesignRow:
     known = {key: columns[key] for key in entries(DesignRow) if key in columns}
     sizes = ("edge_beam_depth_m", "edge_beam_thickness_m", *SILENT_AT_ZERO)
     plain = {"folded": NONE, "file_unit": "m", "loads": PAPER, "outline": NONE, "openings": NONE}
+    plain |= {"settings": NONE}
     none = {key: None for key, value in plain.items() if columns.get(key) == value}
     return DesignRow(**known | {key: columns.get(key) or None for key in sizes} | none)

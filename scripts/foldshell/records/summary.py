@@ -116,3 +116,4 @@ class SummaryRow:
         "reinforcement", default=None,
     )  # fmt: skip
     loads: str | None = _design("loads")
+    settings: str | None = _design("settings")

@@ -85,6 +85,11 @@ class DesignColumns(Group):
         meaning="Set of loads, `paper` with the values of the group `loads`, or one of the load "
         "table.",
     )
+    settings: str = setting(
+        NONE,
+        meaning="A file of settings of the design's own, laid over those of the study: what it is "
+        "sized for, and judged by (groups sizing, checks, codes, reinforcement, co2, prices).",
+    )
     fold_mode: str = setting(
         "elastic", choices=FOLD_MODES,
         former={"paper": "elastic"},
@@ -212,10 +217,10 @@ class Design(DesignColumns):
         return {"design": self.name, **columns, "tags": ",".join(self.tags)}
 
     def decide(self) -> Row:
-        """Return the columns that decide its final state: all but name and tags, and but those of
-        its pattern and files that say nothing."""
+        """Return the columns that decide its final state: all but name, tags and the name of its
+        settings, and but those of its pattern and files that say nothing."""
         row = self.to_row()
-        silent = {key for key in SILENT_AT_ZERO if not row[key]}
+        silent = {key for key in SILENT_AT_ZERO if not row[key]} | {"settings"}
         silent |= set() if self.files else {"folded", "file_unit"}
         silent |= set() if self.is_cut else {"outline", "openings"}
         return {key: row[key] for key in row if key not in {"design", "tags"} | silent}

@@ -16,6 +16,7 @@ from foldshell.settings.design import NONE, SURFACES, Design
 from foldshell.settings.designs import check_defaults, read_designs
 from foldshell.settings.load_sets import check_loads, find_load_sets, list_cases, note_idle_loads
 from foldshell.settings.make import make_settings
+from foldshell.settings.own import add_own
 from foldshell.settings.study import LOAD_TABLE, Settings
 
 
@@ -48,6 +49,7 @@ def load_study(
     notes += [f"{source}: {note}" for note in found] if not notes else []
     check_defaults(settings, source)
     designs = read_designs(settings.designs, settings, notes)
+    settings = add_own(settings, designs, config)
     check_loads(designs, settings, str(settings.designs), source)
     notes += note_idle_loads(settings, designs, source)
     designs = measure_surface_files(designs, str(settings.designs), notes)

@@ -13,6 +13,7 @@ from foldshell.settings.field import Plain, list_groups
 from foldshell.settings.fold import Fold, Pattern
 from foldshell.settings.load_sets import combinations_of, place_set
 from foldshell.settings.load_table import PAPER
+from foldshell.settings.own import settings_of
 from foldshell.settings.reinforcement import Co2, Prices, Reinforcement
 from foldshell.settings.sizing import REINFORCED, Sizing
 from foldshell.settings.stage import to_plain
@@ -54,9 +55,10 @@ def stage_parameters(settings: Settings, stage: str, design: Design | None = Non
 
     As Snakemake `params` they make a rule run again only when a setting that it needs has
     changed; `read_stage` makes typed settings of them. A design with the tag `demo` gets the
-    demo's subdivisions, one with loads of its own gets those, and each its combinations.
+    demo's subdivisions, one with loads or settings of its own gets those, and each its
+    combinations.
     """
-    chosen: Plain = {}
+    settings, chosen = settings_of(settings, design), {}
     for name, kind in list_groups(Settings).items():
         if kind in STAGES[stage]:
             chosen[name] = to_plain(getattr(settings, name), stage)

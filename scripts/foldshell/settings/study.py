@@ -1,5 +1,7 @@
 """Every setting of a study, group by group, and the small groups."""
 
+from collections.abc import Mapping
+
 from foldshell.settings.analysis import Analysis
 from foldshell.settings.archive import Archive
 from foldshell.settings.checks import Checks
@@ -80,6 +82,9 @@ class Settings(Group):
         "docs/loads.md says more.",
     )
     load_sets: LoadSets = setting({}, internal=True, meaning="The sets that the table holds.")
+    own: Mapping[str, "Settings"] = setting(
+        {}, internal=True, meaning="Settings of the files that designs name, by file."
+    )
     exploration: str = setting(
         NO_EXPLORATION,
         meaning="File of the exploration that the target `explore` runs; config/explorations/ has "
