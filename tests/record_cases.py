@@ -1,5 +1,7 @@
 """Records with all their fields, for tests that care for a few of them."""
 
+from dataclasses import replace
+
 from foldshell.records.analysis import AnalysisRecord, Criteria, Criterion
 from foldshell.records.classes import ClassesRecord, ThicknessClass
 from foldshell.records.comparison import ComparedQuantity, ComparisonRecord
@@ -11,6 +13,7 @@ from foldshell.records.engineering import (
 )
 from foldshell.records.mesh_convergence import MeshConvergenceRecord, MeshStudy, ReferenceMesh
 from foldshell.records.quality import QualityRecord
+from foldshell.records.reinforcement import BarsRecord, ReinforcementRecord
 from foldshell.records.summary import SummaryRow
 
 STATE = {
@@ -110,6 +113,25 @@ def make_engineering(checks=None, measures=None, **changes) -> EngineeringRecord
     return EngineeringRecord(
         checks=checks or {"strength": make_check()}, measures=made, **rest | changes
     )
+
+
+def make_steel(**changes) -> ReinforcementRecord:
+    """Return the key `reinforcement` of engineering.json, of a sheet of 1100 m2."""
+    shares = dict.fromkeys(("ratio", "shear", "crack", "punching"), 0.0)
+    bars = BarsRecord(
+        thickness_m=0.06, panels=30, layer="bottom", direction="x", diameter_mm=6.0,
+        spacing_mm=100.0, area_cm2_m=2.83, mass_kg=880.0, use=0.93,
+    )  # fmt: skip
+    values = {
+        "kind": "bars", "steel_kg_m2": 15.5, "steel_kg_m3": 197.0, "steel_needed_kg_m2": 9.5,
+        "steel_kg": 17050.0, "steel_bars_kg": 1770.0, "concrete_m3": 86.5, "creases_m": 512.0,
+        "two_layers_share": 0.25, "governing_share": {"strut": 0.375, "fit": 0.625} | shares,
+        "over_one_share": {"strut": 0.035, "fit": 0.015} | shares,
+        "co2_kg": 41800.0, "co2_low_kg": 28600.0, "co2_high_kg": 59400.0,
+        "cost": 67100.0, "cost_low": 60000.0, "cost_high": 74000.0,
+        "bars": (bars, replace(bars, direction="y", mass_kg=890.0)),
+    }  # fmt: skip
+    return ReinforcementRecord(**values | changes)
 
 
 def make_quantity(passed=False, **changes) -> ComparedQuantity:

@@ -21,6 +21,7 @@ from record_cases import (
     make_convergence,
     make_engineering,
     make_quality,
+    make_steel,
 )
 
 SETTINGS = stage_parameters(make_settings({}), "study")
@@ -119,11 +120,13 @@ def test_every_column_is_that_of_the_file_it_comes_from(tmp_path):
     write_record(folder / "crosscheck/comparison.json", make_comparison(True))
     sway = {"displacement_horizontal": make_check(value=0.057)}
     used = {"von_mises": (0.81, 1.46), "rankine": (2.9, 6.3)}
-    engineering = make_engineering(sway, used, verdict="fails", reason="tension")
+    engineering = make_engineering(
+        sway, used, verdict="fails", reason="tension", reinforcement=make_steel()
+    )
     write_record(folder / "checks/engineering.json", engineering)
     design = make_design("a") | {"edge_beam_depth_m": 0.41, "edge_beam_thickness_m": 0.23}
     design |= {"folded": "roof.obj", "file_unit": "mm", "strip_grading": 0.3}
-    design |= {"span_x_m": 31.0, "span_y_m": 29.0, "loads": "mine"}
+    design |= {"span_x_m": 31.0, "span_y_m": 29.0, "loads": "mine", "settings": "own.yaml"}
     design |= {"outline": "a.csv", "openings": "b.csv"}
     design |= {"opening_angle_deg": 150.0, "take_up": 0.7}
     design |= {"sector_angle_deg": 55.0, "rest_fold_angle_deg": 31.0}
@@ -149,7 +152,10 @@ def test_every_column_is_that_of_the_file_it_comes_from(tmp_path):
         "buckling_mesh_error": "0.17", "crosscheck": "pass",
     }  # fmt: skip
     others |= {
-        "engineering": "fails", "engineering_reason": "tension", "steel_kg_m2": "",
+        "engineering": "fails", "engineering_reason": "tension", "steel_kg_m2": "15.5",
+        "reinforcement": "bars", "steel_kg_m3": "197.0", "steel_over_share": "0.035",
+        "steel_governing": "fit in 62 % of the panels", "co2_kg_m2": "38.0",
+        "co2_low_kg_m2": "26.0", "co2_high_kg_m2": "54.0", "cost_m2": "61.0",
         "displacement_horizontal_max_m": "0.057", "utilization_strip_max": "1.46",
         "rankine_panel_mean_max": "2.9", "rankine_strip_max": "6.3",
     }  # fmt: skip

@@ -117,3 +117,32 @@ class SummaryRow:
     )  # fmt: skip
     loads: str | None = _design("loads")
     settings: str | None = _design("settings")
+    reinforcement: str | None = entry(
+        "kind of reinforcement: bars, central_mesh or textile; empty without a design of it",
+        words="kind of reinforcement", default=None,
+    )  # fmt: skip
+    steel_kg_m3: float | None = entry(
+        "reinforcement by volume of concrete", "kg/m3", "reinforcement by volume", default=None
+    )
+    steel_governing: str | None = entry(
+        "check of reinforcement that is used most in most panels, with their share",
+        words="governs reinforcement", default=None,
+    )  # fmt: skip
+    steel_over_share: float | None = entry(
+        "share of the panels that pass a check of reinforcement, of the check with most", "-",
+        "panels over a check of reinforcement", default=None,
+    )  # fmt: skip
+    co2_kg_m2: float | None = entry(
+        "greenhouse gases of making concrete, reinforcement and folds, by area of the sheet",
+        "kg/m2", "CO2e", default=None,
+    )  # fmt: skip
+    co2_low_kg_m2: float | None = entry(
+        "the same at the lower end of the factors", "kg/m2", "CO2e, lower end", default=None
+    )
+    co2_high_kg_m2: float | None = entry(
+        "the same at the upper end of the factors", "kg/m2", "CO2e, upper end", default=None
+    )
+    cost_m2: float | None = entry(
+        "cost by area of the sheet, in the currency of the prices; empty without prices", "1/m2",
+        "cost", default=None,
+    )  # fmt: skip

@@ -121,7 +121,8 @@ def _describe(
     bars = make_schedule(steel.area, steel.two_layers, classes.thickness, area, layout)
     concrete = float(area @ steel.thickness)
     mass = sum_steel(steel.area, area, layout.density)
-    total = Quantities(concrete, mass, measure_creases(model), float(area.sum()))
+    total = Quantities(concrete, mass, measure_creases(model), float(area.sum()),
+                       layout.kind == "textile")  # fmt: skip
     emitted, cost = sum_emissions(total, given.co2), sum_cost(total, given.prices)
     governing = np.bincount(shares.argmax(axis=1), minlength=len(CHECKS)) / len(shares)
     over = (shares > 1).mean(axis=0)

@@ -14,6 +14,7 @@ from foldshell.records.engineering import EngineeringRecord
 from foldshell.records.files import read_record
 from foldshell.records.mesh_convergence import MeshConvergenceRecord
 from foldshell.records.quality import QualityRecord
+from foldshell.records.reinforcement import ReinforcementRecord
 from foldshell.records.summary import SummaryRow
 from foldshell.results.history import collect_edited_panels
 from foldshell.settings.design import Row
@@ -108,10 +109,26 @@ def _describe_engineering(path: Path, last: AnalysisRecord | None) -> dict[str, 
         "engineering": record.verdict,
         "engineering_reason": record.reason,
         "displacement_horizontal_max_m": sway and sway.value,
-        "steel_kg_m2": record.reinforcement and record.reinforcement.steel_kg_m2,
+        **(_describe_steel(record.reinforcement, last.area_m2) if record.reinforcement else {}),
         "utilization_strip_max": own and own.utilization_strip_max,
         "rankine_panel_mean_max": rankine and rankine.utilization_panel_mean_max,
         "rankine_strip_max": rankine and rankine.utilization_strip_max,
+    }
+
+
+def _describe_steel(steel: ReinforcementRecord, area: float) -> dict[str, float | str | None]:
+    """Return the columns of reinforcement, what it emits and what it costs, by area m2."""
+    most = max(steel.governing_share, key=steel.governing_share.get)
+    return {
+        "reinforcement": steel.kind,
+        "steel_kg_m2": steel.steel_kg_m2,
+        "steel_kg_m3": steel.steel_kg_m3,
+        "steel_governing": f"{most} in {100 * steel.governing_share[most]:.0f} % of the panels",
+        "steel_over_share": max(steel.over_one_share.values()),
+        "co2_kg_m2": steel.co2_kg / area,
+        "co2_low_kg_m2": steel.co2_low_kg / area,
+        "co2_high_kg_m2": steel.co2_high_kg / area,
+        "cost_m2": steel.cost and steel.cost / area,
     }
 
 

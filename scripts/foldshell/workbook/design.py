@@ -22,6 +22,7 @@ from foldshell.workbook.engineering import (
 )
 from foldshell.workbook.history import add_history_sheets
 from foldshell.workbook.panels import FloatArray, IntArray, PanelGrid
+from foldshell.workbook.reinforcement import add_reinforcement
 from foldshell.workbook.styles import (
     LINE_WIDTH,
     Line,
@@ -79,6 +80,7 @@ def write_design(path: str | Path, report: DesignReport) -> None:
             add_checks(book, styles, engineering, f"{report.title}: engineering checks")
         _add_panels(book, styles, report)
         if engineering is not None:
+            add_reinforcement(book, styles, engineering.reinforcement)
             add_reactions(book, styles, engineering, report.engineering_arrays)
             own = {f"sizing loop, {name}": getattr(report.combinations, name)
                    for name in ("strength", "deflection")}  # fmt: skip

@@ -15,6 +15,7 @@ from foldshell.records.engineering import (
 )
 from foldshell.settings.field import Factors
 from foldshell.workbook.cells import name_column
+from foldshell.workbook.reinforcement import add_reinforcement
 from foldshell.workbook.styles import (
     LINE_HEIGHT,
     Line,
@@ -56,6 +57,7 @@ def write_engineering(
     with create_workbook(path, f"Engineering checks of {title}") as (book, styles):
         add_checks(book, styles, record, f"Engineering checks of {title}")
         add_panels(book, styles, record)
+        add_reinforcement(book, styles, record.reinforcement)
         add_reactions(book, styles, record, arrays, vertices=False)
         add_combinations(book, styles, list_groups(record), record.loads, record.load_moments)
 

@@ -119,7 +119,7 @@ def test_quantities_by_hand():
     steel = sum_steel(np.full((2, 2, 2), 1e-4), np.array([3.0, 5.0]), 7850)
     assert steel == pytest.approx(4e-4 * 8 * 7850)
     total = Quantities(2.0, 100.0, 10.0, 40.0)
-    assert sum_emissions(total, Co2()) == pytest.approx((600, 340, 900))
+    assert sum_emissions(total, Co2()) == pytest.approx((600, 475, 772))
     assert sum_cost(total, Prices()) is None
     priced = Prices(concrete_m3=200.0, steel_kg=2.0, crease_m=5.0, range_share=0.1)
     assert sum_cost(total, priced) == pytest.approx((650, 585, 715))

@@ -6,7 +6,7 @@ import pytest
 
 from foldshell.records.engineering import CombinationFactors, EngineeringArrays
 from foldshell.workbook.engineering import write_engineering
-from record_cases import make_check, make_engineering
+from record_cases import make_check, make_engineering, make_steel
 
 EDGES = np.array([[[3.0], [4.0], [10.0]], [[-1.0], [0.0], [20.0]]])
 
@@ -25,6 +25,7 @@ def books(tmp_path):
     record = make_engineering(
         checks,
         panels=panels,
+        reinforcement=make_steel(),
         loads={"SW": (0.0, 0.0, -25.0), "WX": (-2.0, -4.0, 0.0)},
         reactions={"first strip edge": {"ULS1": (3.0, 4.0, 10.0)},
                    "last strip edge": {"ULS1": (-1.0, 0.0, 20.0)}},
@@ -79,3 +80,25 @@ def test_volume_is_the_sum_of_area_times_thickness(books):
     row = find_row(values, "volume [m3]", 0)
     assert formulas.cell(row, 3).value == "=SUMPRODUCT(C3:C4,B3:B4)"
     assert values.cell(row, 3).value == pytest.approx(1.3)
+
+
+def test_reinforcement_has_totals_shares_and_bars_with_formulas(books):
+    """17050 kg over 86.5 m3, 880 + 890 kg by the schedule."""
+    formulas, values = (book["reinforcement"] for book in books)
+    row = {key: find_row(values, key, 0) for key in ("steel kg m3", "steel bars kg", "cost high")}
+    assert formulas.cell(row["steel kg m3"], 2).value == "=B5/B4"
+    assert (formulas.cell(4, 1).value, formulas.cell(5, 1).value) == ("concrete m3", "steel kg")
+    assert values.cell(row["cost high"], 2).value == 74000.0
+    share = find_row(values, "fit", 0)
+    assert [values.cell(share, k).value for k in (2, 3)] == [0.625, 0.015]
+    mass = formulas.cell(row["steel bars kg"], 2).value
+    first, last = (int(part[1:]) for part in mass.removeprefix("=SUM(").rstrip(")").split(":"))
+    column = openpyxl.utils.column_index_from_string(mass[5])
+    assert [values.cell(k, column).value for k in (first, last)] == [880.0, 890.0]
+    assert last == first + 1
+
+
+def test_a_design_without_reinforcement_has_no_sheet_of_it(tmp_path):
+    path = tmp_path / "engineering.xlsx"
+    write_engineering(path, "a", make_engineering(panels={}), EngineeringArrays())
+    assert "reinforcement" not in openpyxl.load_workbook(path).sheetnames
