@@ -6,7 +6,6 @@ import math
 from foldshell.settings.designs import select_designs
 from foldshell.engine.imports import write_content_list
 from foldshell.files.package_data import library_folder
-from foldshell.settings.own import settings_of
 from foldshell.settings.stages import choose_subdivisions, hash_decisions, stage_parameters
 
 BY_NAME = {design.name: design for design in DESIGNS}
@@ -65,11 +64,6 @@ def of_stage(stage):
     """Return a function of the wildcards that gives the plain settings of a stage."""
     known = functools.cache(lambda name: stage_parameters(SETTINGS, stage, BY_NAME[name]))
     return lambda wildcards: known(wildcards.design)
-
-
-def own_settings(wildcards):
-    """Return the settings of a design: its own file's, or those of the study."""
-    return settings_of(SETTINGS, BY_NAME[wildcards.design])
 
 
 def files_of_design(wildcards):

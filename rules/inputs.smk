@@ -3,6 +3,12 @@
 from foldshell.claims.sensitivity import VARIANTS
 from foldshell.exchange.formats import name_files
 from foldshell.records.catalogue import FILES
+from foldshell.settings.own import settings_of
+
+
+def own_settings(wildcards):
+    """Return the settings of a design: its own file's, or those of the study."""
+    return settings_of(SETTINGS, BY_NAME[wildcards.design])
 
 
 def results_folder(_wildcards):

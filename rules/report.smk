@@ -1,6 +1,5 @@
 # The report of the study: ours, and Snakemake's own of what is flagged with `report(...)`.
 
-from foldshell.settings.check import parse_group
 
 
 report: "../docs/report/workflow.rst"
@@ -71,6 +70,7 @@ rule report:
         tiles=rules.all_designs.output.tiles,
         verification=local(f"{SCRIPTS}/../tests/verification/README.md"),
         claims=judged_claims,
+        reinforced=judged_reinforced,
         fold=answer_of_explorations,
         figures=charts_of_study,
         designs=report_designs,
@@ -88,6 +88,7 @@ rule report:
         project=str(HOME),
         settings=stage_parameters(SETTINGS, "study"),
         left_out=LEFT_OUT,
+        beside=summaries_beside,
     message:
         "report of the study"
     script:

@@ -1,6 +1,8 @@
 # Files: what charts, report and sheets over all designs read.
 
+from foldshell.files.whole import hash_file
 from foldshell.results.comparisons import explain_left_out
+from foldshell.settings.check import parse_group
 from foldshell.settings.stages import FINAL_STATE
 
 LEFT_OUT = explain_left_out(with_tags(SETTINGS.study))
@@ -42,6 +44,20 @@ def has_claims():
 def judged_claims(wildcards):
     """Return the claims for the report, nothing where they are not judged."""
     return f"{STUDY}/claims.json" if has_claims() else []
+
+
+def judged_reinforced(wildcards):
+    """Return the claims on shells that stand, nothing where they are neither asked for nor there."""
+    path = f"{STUDY}/claims_reinforced.json"
+    return path if is_target("claims_reinforced") or Path(path).exists() else []
+
+
+def summaries_beside(wildcards):
+    """Return the summaries of other studies in the results, by tag, with their content: designs of
+    them may be those of this study under settings of their own."""
+    found = sorted(Path(place()).glob(f"{STUDIES}/*/summary.csv"))
+    others = [path for path in found if path.parent.name != SETTINGS.study]
+    return {path.parent.name: [str(path), hash_file(path)] for path in others}
 
 
 def answer_of_explorations(wildcards):

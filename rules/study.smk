@@ -66,3 +66,4 @@ rule timings:
 
 
 include: "claims.smk"
+include: "claims_reinforced.smk"

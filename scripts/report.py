@@ -22,21 +22,24 @@ def main(
     project: str | Path,
     settings: Plain,
     left_out: Mapping[str, str],
+    beside: Mapping[str, Sequence[str]] | None = None,
 ) -> None:
     """Write the report.
 
     Parameters
     ----------
-    paths : summary (csv), tiles (json), verification (md), claims (json) where they are judged,
-        and fold (the answer of explorations as md, its charts) where there are any
+    paths : summary (csv), tiles (json), verification (md), claims and reinforced (json) where they
+        are judged, and fold (the answer of explorations as md, its charts) where there are any
     figures : charts, PNG files by name
     study : tag of the study
     results : folder with one folder per design
     project : folder of the workflow, for its commit
     settings : plain parameters of stage `study`
     left_out : charts that were not made, with the reason
+    beside : summaries of other studies by tag, each a path first
     """
-    files = read_study(study, paths, results, figures)
+    others = {tag: path for tag, (path, *_) in (beside or {}).items()}
+    files = read_study(study, paths, results, figures, others)
     way = Path(os.path.relpath(results, Path(report).parent)).as_posix()
     page = write_study_report(
         files, read_stage(settings, *STAGES["study"]), find_provenance(project), way, left_out

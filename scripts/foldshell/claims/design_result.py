@@ -31,6 +31,7 @@ QUANTITIES = {
     "utilization_panel_mean_max": "utilization",
     "buckling_factor": "buckling",
     "strength_factor": "utilization",
+    "steel_kg_m2": "steel",
     "depth": "geometry",
     "panel_area": "geometry",
     "edge_strain_rms": "geometry",
@@ -38,12 +39,12 @@ QUANTITIES = {
     "flat_foldability_max_rad": "geometry",
 }
 """What error a quantity inherits."""
-BY_STRIPS = {
-    "utilization_mean": "utilization_strip_mean",
-    "utilization_variation": "utilization_strip_variation",
-    "utilization_panel_mean_max": "utilization_strip_max",
+LOCAL = {
+    "utilization_mean": ("utilization_reinforced_mean", "utilization_strip_mean"),
+    "utilization_variation": ("utilization_reinforced_variation", "utilization_strip_variation"),
+    "utilization_panel_mean_max": ("utilization_reinforced_max", "utilization_strip_max"),
 }
-"""Measures that stand in for others where a loop sized by strips."""
+"""Measures that stand in for others where a loop sized as reinforced concrete, or by strips."""
 
 
 def describe_quantity(quantity: str) -> Entry | None:
@@ -64,8 +65,9 @@ class DesignResult:
 
     `values` are the measures of its state, of a sheet that was only folded those of its geometry;
     `errors` the relative mesh error and cross-check difference of displacement, utilization and
-    buckling (None where unknown), `panels` (2, P) planarity and utilization, `warning` what theory
-    or mesh does not hold of its final state, `strips` the utilization of that state by strips.
+    buckling, or of single quantities (None where unknown), `panels` (2, P) planarity and
+    utilization, `warning` what theory or mesh does not hold of its final state, `strips` the
+    utilization of that state by strips.
     """
 
     row: DesignRow
@@ -79,11 +81,13 @@ class DesignResult:
     def measure(self, quantity: str) -> float | None:
         """Return a quantity by its name, None where it was not measured.
 
-        Of a loop that sized by strips the utilization is that of strips.
+        Of a loop that sized by strips or as reinforced concrete the utilization is that of it.
         """
-        value = getattr(self.values, BY_STRIPS.get(quantity, ""), None)
-        value = getattr(self.values, quantity, None) if value is None else value
-        return getattr(self.quality, quantity, None) if value is None else value
+        for name in (*LOCAL.get(quantity, ()), quantity):
+            value = getattr(self.values, name, None)
+            if value is not None:
+                return value
+        return getattr(self.quality, quantity, None)
 
     @property
     def by_strips(self) -> "DesignResult":
@@ -117,7 +121,8 @@ def estimate_uncertainty(
     if kind == "geometry":
         return 0.0
     if kind != "volume":
-        relative = combine_errors(*design_result.errors.get(kind, (None, None)))
+        known = design_result.errors.get(quantity, design_result.errors.get(kind, (None, None)))
+        relative = combine_errors(*known)
         return None if relative is None else abs(value) * relative
     at_bound = design_result.values.panels_at_bound
     if at_bound is None:

@@ -28,7 +28,10 @@ def judge_buckling(design_results: Sequence[DesignResult], comparer: Comparer) -
     findings = []
     for one in designs:
         least = replace(
-            one.values, utilization_mean=comparer.utilization_min, utilization_strip_mean=None
+            one.values,
+            utilization_mean=comparer.utilization_min,
+            utilization_strip_mean=None,
+            utilization_reinforced_mean=None,
         )
         limit = replace(one, values=least, errors=NO_ERRORS)
         found = comparer.compare(LOW, limit, one, "utilization_mean")

@@ -19,8 +19,8 @@ SCALARS = (
     "panels_at_bound",
 )
 
-STRIP = "strip"
-"""The measure of a loop that sizes by strips."""
+LOCAL = ("strip", "reinforced")
+"""Measures whose own mean and variation over panels stand where those of points stand else."""
 
 
 @dataclass(frozen=True)
@@ -76,7 +76,7 @@ def measure_state(
         **{name: getattr(report, name) for name in SCALARS},
         panel_area=float(measure_panel_areas(mesh, layout).mean()),
         **measure_utilization(mesh, layout, arrays, measure),
-        **measure_strips(mesh, layout, arrays, measure),
+        **measure_local(mesh, layout, arrays, measure),
         **measure_edge_displacement(mesh, layout, arrays.translations, count),
     )
 
@@ -107,27 +107,27 @@ def measure_utilization(
     }
 
 
-def measure_strips(
+def measure_local(
     mesh: Mapping[str, np.ndarray], layout: Layout, arrays: AnalysisArrays, measure: str
 ) -> dict[str, float]:
-    """Return how panels are used by strips where a loop sized by them, nothing else.
+    """Return how panels are used by strips, or as reinforced concrete, where a loop sized by it;
+    nothing else.
 
-    `mesh` are the arrays of mesh.npz. Mean and variation of the panels' own largest strips stand
-    where those of points stand else.
+    `mesh` are the arrays of mesh.npz.
     """
-    used = arrays.utilization(measure) if measure == STRIP else None
-    return {} if used is None else summarise_strips(used, measure_panel_areas(mesh, layout))
+    used = arrays.utilization(measure) if measure in LOCAL else None
+    return {} if used is None else summarise_local(used, measure_panel_areas(mesh, layout), measure)
 
 
-def summarise_strips(used: np.ndarray, area: np.ndarray) -> dict[str, float]:
-    """Return largest, mean and variation of the utilization of panels by strips.
+def summarise_local(used: np.ndarray, area: np.ndarray, measure: str) -> dict[str, float]:
+    """Return largest, mean and variation of the utilization of panels by a local measure.
 
     used (P,) without unit, area (P,) m2.
     """
     return {
-        "utilization_strip_max": float(used.max()),
-        "utilization_strip_mean": float(area @ used / area.sum()),
-        "utilization_strip_variation": weighted_variation(used, area),
+        f"utilization_{measure}_max": float(used.max()),
+        f"utilization_{measure}_mean": float(area @ used / area.sum()),
+        f"utilization_{measure}_variation": weighted_variation(used, area),
     }
 
 

@@ -12,7 +12,7 @@ from foldshell.claims.measures import (
     measure_depth,
     measure_panel_areas,
     measure_state,
-    summarise_strips,
+    summarise_local,
 )
 from foldshell.pattern.angles import flat_foldability_residual
 from foldshell.pattern.grid import build_grid
@@ -86,7 +86,9 @@ def read_strips(
     """
     used = read_record(path, EngineeringRecord).panels.get("utilization_strip")
     area = measure_panel_areas(mesh, layout)
-    return summarise_strips(np.array(used), area) if used and len(used) == len(area) else None
+    if not used or len(used) != len(area):
+        return None
+    return summarise_local(np.array(used), area, "strip")
 
 
 def read_variant(design_result: DesignResult, path: str | Path) -> DesignResult:

@@ -4,7 +4,6 @@ from collections.abc import Mapping, Sequence
 from dataclasses import fields, replace
 
 from foldshell.claims import kinematics as folding
-from foldshell.claims import limits, structure
 from foldshell.claims.design_result import Comparer, DesignResult
 from foldshell.claims.planarity import describe_planarity
 from foldshell.claims.sensitive import (
@@ -14,6 +13,7 @@ from foldshell.claims.sensitive import (
     judge_equal_thickness,
     judge_variants,
 )
+from foldshell.claims.sized import judge_sized
 from foldshell.claims.statement import Claim, describe_claim
 from foldshell.claims.words import format_value, make_table
 from foldshell.records.claims import ClaimRecord, Dependence
@@ -44,16 +44,7 @@ def judge_study(
         folding.judge_auxetic(kinematics),
         folding.judge_soft_modes(kinematics, geometries, comparer),
         folding.judge_force_ratios(kinematics),
-        structure.judge_curvature(design_results, comparer),
-        structure.judge_material(design_results, comparer),
-        structure.judge_surfaces(design_results, comparer),
-        structure.judge_supports(design_results, comparer, equal),
-        structure.judge_zigzags(design_results, comparer, equal),
-        structure.judge_strips(design_results, comparer),
-        limits.judge_buckling(design_results, comparer),
-        limits.judge_free_edges(design_results),
-        limits.judge_deflected_edges(design_results, comparer),
-        limits.judge_folds(design_results, flats, comparer),
+        *judge_sized(design_results, equal, flats, comparer),
         folding.judge_foldability(geometries),
     ]
     described = [_describe(claim, design_results, equal, variants, comparer) for claim in claims]

@@ -18,6 +18,7 @@ from foldshell.records.kinematics import KinematicsRecord
 from foldshell.records.measures import FlatEqualRecord, SensitivityRow, VariantRecord
 from foldshell.records.mesh_convergence import MeshConvergenceRecord, MeshStudy
 from foldshell.records.quality import QualityRecord
+from foldshell.records.reinforced_claims import ReinforcedClaim, ReinforcedRecord
 from foldshell.records.sheet_arrays import FoldedArrays, MeshArrays
 from foldshell.records.summary import SummaryRow
 from foldshell.records.timings import TimingRow
@@ -63,6 +64,10 @@ FILES = (
     ResultFile("kinematics", "kinematics.json", KinematicsRecord, "what a Miura sheet can do"),
     ResultFile("summary", "summary.csv", SummaryRow, "one row per design", True),
     ResultFile("claims", "claims.json", ClaimRecord, "one entry per claim", True),
+    ResultFile("reinforced", "sensitivity/reinforced/<design>.json", ReinforcedRecord,
+               "a loop in memory that sizes a design as reinforced concrete"),
+    ResultFile("claims_reinforced", "claims_reinforced.json", ReinforcedClaim,
+               "one entry per claim, on designs that stand as reinforced concrete", True),
     ResultFile("sensitivity", "sensitivity.csv", SensitivityRow,
                "one row per design and variant", True),
     ResultFile("timings", "timings.csv", TimingRow, "one row per rule, the longest first", True),

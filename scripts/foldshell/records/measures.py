@@ -64,6 +64,19 @@ class Measures(Geometry):
     utilization_strip_variation: float | None = entry(
         "its standard deviation over its mean, by area, likewise", "-", left_out=True
     )
+    utilization_reinforced_max: float | None = entry(
+        "largest share of what steel and concrete allow, where the loop sizes by it", "-",
+        left_out=True,
+    )  # fmt: skip
+    utilization_reinforced_mean: float | None = entry(
+        "area mean over the panels of their largest share, likewise", "-", left_out=True
+    )
+    utilization_reinforced_variation: float | None = entry(
+        "its standard deviation over its mean, by area, likewise", "-", left_out=True
+    )
+    steel_kg_m2: float | None = entry(
+        "reinforcement by area of the sheet, likewise", "kg/m2", left_out=True
+    )
     strength_factor: float | None = entry(
         "load factor at which the mean of a panel reaches the strength", "-", left_out=True
     )

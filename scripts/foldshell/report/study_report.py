@@ -3,7 +3,7 @@
 import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
 
 from foldshell.files.whole import Json, read_json
@@ -12,6 +12,7 @@ from foldshell.records.claims import ClaimRecord
 from foldshell.records.comparison import ComparisonRecord, read_comparison
 from foldshell.records.files import read_record, read_records
 from foldshell.records.mesh_convergence import MeshConvergenceRecord
+from foldshell.records.reinforced_claims import ReinforcedClaim
 from foldshell.records.summary import SummaryRow
 from foldshell.records.table import read_rows
 from foldshell.report.beside import list_exports
@@ -22,6 +23,7 @@ from foldshell.report.fold_answer import Part, read_chapter
 from foldshell.report.loads_section import describe_loads
 from foldshell.report.markdown import render_markdown
 from foldshell.report.markup import Table, make_table, render
+from foldshell.report.own_settings import compare_settings
 from foldshell.report.provenance import Provenance
 from foldshell.report.reading import say_both, say_compared
 from foldshell.report.study_columns import Column, choose_columns, count_verdicts, make_row
@@ -56,7 +58,8 @@ class DesignEntry:
 
 @dataclass(frozen=True)
 class StudyFiles:
-    """What a report is made of; `tiles` are small pictures of all designs by quantity."""
+    """What a report is made of; `tiles` are small pictures of all designs by quantity,
+    `standing` the claims on shells that stand, `beside` the summaries of other studies by tag."""
 
     study: str
     designs: Sequence[DesignEntry]
@@ -65,6 +68,8 @@ class StudyFiles:
     claims: Sequence[ClaimRecord]
     verification: str
     chapter: Sequence[Part] = ()
+    standing: Sequence[ReinforcedClaim] = ()
+    beside: Mapping[str, str | Path] = field(default_factory=dict)
 
 
 def read_study(
@@ -72,16 +77,22 @@ def read_study(
     paths: Mapping[str, str | Path | Sequence[str]],
     results: str | Path,
     figures: Mapping[str, str | Path],
+    beside: Mapping[str, str | Path] | None = None,
 ) -> StudyFiles:
     """Read what a report is made of: summary.csv, tiles.json, the files of designs in `results`;
-    the chapter of verification, claims.json, the answer of explorations where `paths` has them."""
+    the chapter of verification, claims.json, claims_reinforced.json, the answer of explorations
+    where `paths` has them. `beside` are the summaries of other studies by tag."""
     rows = read_rows(paths["summary"], SummaryRow)
     designs = [_read_design(row, Path(results, row.design)) for row in rows]
-    judged = read_records(paths["claims"], ClaimRecord) if "claims" in paths else []
+    judged, standing = (
+        read_records(paths[name], kind) if name in paths else []
+        for name, kind in (("claims", ClaimRecord), ("reinforced", ReinforcedClaim))
+    )
     chapter = read_chapter(paths.get("fold", ()))
     chapters = [paths["verification"]] if "verification" in paths else []
     text = "".join(Path(path).read_text(encoding="utf-8") for path in chapters)
-    return StudyFiles(study, designs, read_json(paths["tiles"]), figures, judged, text, chapter)
+    known = study, designs, read_json(paths["tiles"]), figures, judged, text, chapter
+    return StudyFiles(*known, standing, beside or {})
 
 
 def _read_design(row: SummaryRow, folder: Path) -> DesignEntry:
@@ -130,6 +141,8 @@ def write_study_report(
         left_out=left_out,
         claims=files.claims,
         chapter=files.chapter,
+        standing=files.standing,
+        sized_for=compare_settings([entry.row for entry in files.designs], files.beside),
         verification=make_verification(files.designs),
         benchmarks=render_markdown(files.verification),
         loads=describe_loads(settings),

@@ -88,7 +88,8 @@ class DesignColumns(Group):
     settings: str = setting(
         NONE,
         meaning="A file of settings of the design's own, laid over those of the study: what it is "
-        "sized for, and judged by (groups sizing, checks, codes, reinforcement, co2, prices).",
+        "sized for, and judged by (groups combinations, codes, sizing, checks, reinforcement, co2, "
+        "prices).",
     )
     fold_mode: str = setting(
         "elastic", choices=FOLD_MODES,

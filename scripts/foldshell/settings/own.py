@@ -8,11 +8,12 @@ from foldshell.files.errors import InputError
 from foldshell.settings.check import Reader, parse_group
 from foldshell.settings.config_file import read_config
 from foldshell.settings.design import NONE, Design
+from foldshell.settings.load_sets import check_loads
 from foldshell.settings.make import make_settings
 from foldshell.settings.nearest import hint_nearest
 from foldshell.settings.study import Settings
 
-OWN_GROUPS = ("sizing", "checks", "codes", "reinforcement", "co2", "prices")
+OWN_GROUPS = ("combinations", "codes", "sizing", "checks", "reinforcement", "co2", "prices")
 """Groups that a design may have of its own: what it is sized for, and judged by. Shape, loads and
 mesh have columns, or are those of the study."""
 
@@ -49,12 +50,19 @@ def lay_over(below: Mapping[str, object], above: Mapping[str, object]) -> dict[s
 def add_own(
     settings: Settings, designs: Iterable[Design], config: Mapping[str, object]
 ) -> Settings:
-    """Return the settings with those of all files that designs name, each file read once."""
-    found: dict[str, Settings] = {}
+    """Return the settings with those of all files that designs name, each file read once.
+
+    Raises `InputError` as `read_own` does, and for combinations that a design's loads do not have.
+    """
+    naming: dict[str, list[Design]] = {}
     for design in designs:
-        if design.settings != NONE and design.settings not in found:
-            place = f"{settings.designs}: design {design.name!r}"
-            found[design.settings] = read_own(design.settings, config, place)
+        if design.settings != NONE:
+            naming.setdefault(design.settings, []).append(design)
+    found: dict[str, Settings] = {}
+    for path, having in naming.items():
+        place = f"{settings.designs}: design {having[0].name!r}"
+        found[path] = read_own(path, config, place)
+        check_loads(having, found[path], str(settings.designs), path)
     return replace(settings, own=found)
 
 

@@ -60,6 +60,7 @@ def test_units_of_quantities_are_those_of_their_records():
         "volume": ("m3", "m3"), "volume_per_area": ("m", "mm"), "displacement": ("m", "mm"),
         "displacement_edge": ("m", "mm"), "displacement_inner": ("m", "mm"), "depth": ("m", "m"),
         "panel_area": ("m2", "m2"), "edge_strain_rms": ("-", "%"),
+        "steel_kg_m2": ("kg/m2", "kg/m2"),
         "angle_defect_max_rad": ("rad", "rad"), "flat_foldability_max_rad": ("rad", "rad"),
     }  # fmt: skip
     for quantity in QUANTITIES:
