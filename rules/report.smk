@@ -1,7 +1,6 @@
 # The report of the study: ours, and Snakemake's own of what is flagged with `report(...)`.
 
 
-
 report: "../docs/report/workflow.rst"
 
 

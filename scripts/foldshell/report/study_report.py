@@ -5,6 +5,7 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, field, replace
 from pathlib import Path
+from typing import Any
 
 from foldshell.files.whole import Json, read_json
 from foldshell.records.analysis import AnalysisRecord, read_analysis
@@ -141,8 +142,7 @@ def write_study_report(
         left_out=left_out,
         claims=files.claims,
         chapter=files.chapter,
-        standing=files.standing,
-        sized_for=compare_settings([entry.row for entry in files.designs], files.beside),
+        **_describe_standing(files),
         verification=make_verification(files.designs),
         benchmarks=render_markdown(files.verification),
         loads=describe_loads(settings),
@@ -156,6 +156,12 @@ def write_study_report(
     if len(page.encode()) > SIZE_MAX:
         raise ValueError(f"report of {len(page.encode())} bytes: {SIZE_MAX} at most")
     return page
+
+
+def _describe_standing(files: StudyFiles) -> dict[str, Any]:
+    """Return the claims on shells that stand, and the table of designs under several settings."""
+    rows = [entry.row for entry in files.designs]
+    return {"standing": files.standing, "sized_for": compare_settings(rows, files.beside)}
 
 
 def _make_card(entry: DesignEntry, columns: Sequence[Column], to_results: str, tiles: Json) -> Json:
