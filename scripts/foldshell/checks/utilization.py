@@ -5,6 +5,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from foldshell.checks.strength import CRITERIA
+from foldshell.files.threads import run_parts
 from foldshell.settings.material import Material
 from foldshell.shell.analysis import ShellModel
 from foldshell.shell.results import panel_area
@@ -72,11 +73,14 @@ def utilization_of_combinations(
     flat = points.reshape(-1, 2)
     criterion = CRITERIA[material.criterion]
     combination = np.empty((displacement.shape[1], len(thickness), *points.shape[:2]))
-    for column in range(displacement.shape[1]):
+
+    def evaluate(column: int) -> None:
         own = resultants.column(column)
         stress = outer_stresses(operators, own, thickness, flat)[:, :, 0]
         value = criterion(np.moveaxis(stress, 1, -1), material).max(axis=0)
         combination[column] = value.reshape(combination.shape[1:])
+
+    list(run_parts(evaluate, range(displacement.shape[1])))
     return combination
 
 

@@ -1,6 +1,7 @@
 """Elastic mode: soft springs, as a physics engine would have it."""
 
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 
@@ -16,6 +17,9 @@ from foldshell.settings.fold import Fold
 # Averaged projections creep: many more iterations, judged over a window of them.
 EXPLICIT_ITERATIONS, EXPLICIT_TOLERANCE = 50, 10.0
 SETTLED = 1e-2  # last fall of the cost, of itself, from which the shape hardly changes any more
+
+SHORTENED_FROM = 10_000
+"""Unknowns from which on a factorisation is dear beside a look at a shorter step."""
 
 
 def fold_softly(sheet: Sheet, target: Target, settings: Fold) -> Shape:
@@ -39,7 +43,9 @@ def minimise_softly(
     Vertices in m.
     """
     explicit = settings.engine == "averaged_projections"
-    minimise = average_projections if explicit else minimise_terms
+    minimise = average_projections
+    if not explicit:
+        minimise = partial(minimise_terms, shorten=start.size >= SHORTENED_FROM)
     return minimise(
         terms,
         start,

@@ -181,10 +181,10 @@ class ShellAnalysis:
         self._strains = placed.strains(thickness, material.thermal_expansion)
         self._moved = _settle(model, placed)
         self._names, self._loads = tuple(combinations), forces @ self._factors
-        modulus, self._checked = material.youngs_modulus, False
-        self._values = assemble_stiffness(model.operators, model.pattern, thickness, modulus)
+        self._stiffness = model.operators, model.pattern, thickness, material.youngs_modulus
+        self._checked = False
         try:
-            values, solver = self._values, self._options.solver
+            values, solver = assemble_stiffness(*self._stiffness), self._options.solver
             self._solution = Solution(model, thickness, material, values, solver)
         except NotPositiveDefiniteError:
             self._solution = None
@@ -235,7 +235,7 @@ class ShellAnalysis:
 
     def _is_mechanism(self, effort: Effort) -> bool:
         if self._solution is not None and effort.check_mechanism and not self._checked:
-            if self._solution.is_singular(self._values):
+            if self._solution.is_singular:
                 self._solution = None
             self._checked = True
         return self._solution is None
@@ -243,7 +243,8 @@ class ShellAnalysis:
     def _report_mechanism(self) -> AnalysisResult:
         """Report where the stiffness gives way, and no numbers."""
         nothing = np.full(self._loads.shape, np.nan)
-        reason, node = describe_mechanism(self._model, self._values, self._options.solver)
+        values = assemble_stiffness(*self._stiffness)
+        reason, node = describe_mechanism(self._model, values, self._options.solver)
         empty = self._names, nothing, nothing, self._loads
         return AnalysisResult("mechanism", reason, *empty, mechanism_node=node)
 

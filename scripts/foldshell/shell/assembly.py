@@ -10,12 +10,17 @@ from functools import cached_property
 
 import numpy as np
 
+from foldshell.files.threads import LARGE, divide_rows, run_parts
+from foldshell.shell.dissection import rank_by_dissection
 from foldshell.shell.mesh import ShellMesh
 from foldshell.shell.reference import lattice_indices
 from foldshell.shell.stiffness import ShellOperators
 
 CHUNK = 64
 """Elements handled at once, so that temporary arrays stay in cache."""
+
+PLACED = 4096
+"""Elements whose entries are placed at once on a large mesh."""
 
 HELD = -(1 << 40)
 """Place of a freedom that is held: negative even after any other has been added."""
@@ -30,7 +35,8 @@ class LowerPattern:
     free : (D,) bool, the degrees of freedom that are not supported
     dofs : (size,) the degree of freedom of each row
     indptr, indices : compressed columns, rows in ascending order, int64
-    put : (E, d(d+1)/2) where each packed element entry is added; one past the end for none
+    put : (E, d(d+1)/2) where each packed element entry is added; one past the end for none;
+        int32 where that holds them
     springs : (size,) kN/m of elastic supports on the diagonal, None for none
     """
 
@@ -66,7 +72,7 @@ def find_pattern(
     member = np.zeros(mesh.dof_count, dtype=np.int64)
     member[operators.dofs] = groups[:, local_group]
     size = np.bincount(member[free], minlength=int(groups.max()) + 1)
-    rank = _fill_reducing_rank(groups, size)
+    rank = _find_rank(mesh, groups, size)
     dofs = np.flatnonzero(free)
     dofs = dofs[np.argsort(rank[member[dofs]], kind="stable")]
     ranked = np.empty_like(size)
@@ -95,13 +101,15 @@ def assemble_stiffness(
     youngs_modulus : kPa, of all or (E,) of each element
     """
     t = (youngs_modulus * np.asarray(thickness))[:, None]
-    packed = operators.bending * (t * thickness[:, None] ** 2)
+    cubed = t * thickness[:, None] ** 2
     width = operators.membrane.shape[1]
-    for start in range(0, len(packed), CHUNK):
+    values = np.zeros(len(pattern.indices) + 1)
+    for start in range(0, len(t), CHUNK):
         part = slice(start, start + CHUNK)
-        packed[part, :width] += operators.membrane[part] * t[part]
-    count = len(pattern.indices)
-    values = np.bincount(pattern.put.ravel(), packed.ravel(), count + 1)[:count]
+        packed = operators.bending[part] * cubed[part]
+        packed[:, :width] += operators.membrane[part] * t[part]
+        np.add.at(values, pattern.put[part].ravel(), packed.ravel())
+    values = values[:-1]
     if pattern.springs is not None:
         values[pattern.indptr[:-1]] += pattern.springs  # each column begins with its diagonal
     return values
@@ -139,6 +147,16 @@ def _element_groups(mesh: ShellMesh) -> tuple[np.ndarray, np.ndarray]:
     local[corner] = (~on_side[corner]).argmax(axis=1)
     rotation = np.repeat([3, 4, 5], mesh.order)
     return compact.reshape(groups.shape), np.concatenate([np.repeat(local, 3), rotation])
+
+
+def _find_rank(mesh: ShellMesh, groups: np.ndarray, size: np.ndarray) -> np.ndarray:
+    """Return the place of each group: by minimum degree, on large meshes by dissection too."""
+    rank = _fill_reducing_rank(groups, size)
+    if size.sum() <= LARGE:
+        return rank
+    _, panel = np.unique(mesh.panel, return_inverse=True)
+    points = mesh.nodes[mesh.corners].mean(axis=1)
+    return rank_by_dissection(groups, size, panel, points, rank)
 
 
 def _fill_reducing_rank(groups: np.ndarray, size: np.ndarray) -> np.ndarray:
@@ -192,7 +210,21 @@ def _packed_places(dofs, offset, groups, local_group, columns: _GroupColumns) ->
     """Return the place of every packed entry (E, d(d+1)/2) among the nonzeros."""
     width, none = dofs.shape[1], len(columns.indices)
     members = [np.flatnonzero(local_group == k) for k in range(groups.shape[1])]
-    put = np.empty((len(dofs), width * (width + 1) // 2), dtype=np.int64)
+    kind = np.int32 if none < np.iinfo(np.int32).max else np.int64
+    put = np.empty((len(dofs), width * (width + 1) // 2), dtype=kind)
+
+    def fill(part: slice) -> None:
+        own = put[part]
+        for place, i, j in _list_places(dofs[part], offset, groups[part], members, columns):
+            i, j = np.maximum(i, j), np.minimum(i, j)
+            own[:, i * (i + 1) // 2 + j] = np.where(place < 0, none, place)
+
+    list(run_parts(fill, divide_rows(len(dofs), len(columns.indptr), PLACED)))
+    return put
+
+
+def _list_places(dofs, offset, groups, members, columns: _GroupColumns):
+    """Yield for each pair of groups the places (E, k) of its entries, and their freedoms (k,)."""
     for a, rows in enumerate(members):
         for b, others in enumerate(members[: a + 1]):
             one, two = groups[:, a], groups[:, b]
@@ -206,17 +238,13 @@ def _packed_places(dofs, offset, groups, local_group, columns: _GroupColumns) ->
                 low, high = first[:, i], first[:, j]
                 place = _column_start(np.minimum(low, high), tall) + np.maximum(low, high)
                 place += base[:, None]
-                i, j = rows[i], rows[j]
+                yield place, rows[i], rows[j]
             else:
                 later = (one > two)[:, None]
                 first = np.where(later, first, _column_start(first, tall)) + base[:, None]
                 second = np.where(later, _column_start(second, tall), second)
                 place = (first[:, :, None] + second[:, None, :]).reshape(len(dofs), -1)
-                i, j = np.repeat(rows, len(others)), np.tile(others, len(rows))
-            i, j = np.maximum(i, j), np.minimum(i, j)
-            put[:, i * (i + 1) // 2 + j] = place
-    put[put < 0] = none
-    return put
+                yield place, np.repeat(rows, len(others)), np.tile(others, len(rows))
 
 
 def _column_start(offset: np.ndarray, height: np.ndarray) -> np.ndarray:

@@ -8,9 +8,11 @@ enlarged by K^-1 K_g x of every mode x that is not yet accurate: a block Davidso
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
+from functools import reduce
 
 import numpy as np
 
+from foldshell.files.threads import divide, divide_rows, run_parts
 from foldshell.shell.effort import NEAR, USUAL, Effort
 
 GROWTH = 10.0
@@ -30,6 +32,9 @@ DEPENDENT = 1e-22
 
 ROOM = 96
 """Vectors for which memory is set aside at first."""
+
+LEAST_COLUMNS = 2
+"""Vectors of a part that is worked on alone on a large mesh."""
 
 
 @dataclass(frozen=True)
@@ -176,7 +181,12 @@ class _Subspace:
 
     def images(self, coefficients: np.ndarray, factors: np.ndarray) -> np.ndarray:
         """Return -K_g(N) x (size, n) of vectors with coefficients (k, n), factors (cases, n)."""
-        return -self.apply_mixed(self.combine(coefficients), factors)
+
+        def apply(part: slice) -> np.ndarray:
+            return -self.apply_mixed(self.combine(coefficients[:, part]), factors[:, part])
+
+        parts = divide(coefficients.shape[1], self.size, LEAST_COLUMNS)
+        return _join(list(run_parts(apply, parts)), axis=1)
 
     def extend(self, forces: np.ndarray) -> np.ndarray:
         """Add Z = K^-1 forces to the basis; return Z as solved."""
@@ -187,13 +197,13 @@ class _Subspace:
         # rows hold vectors: products of long rows are several times as fast as of long columns
         vectors, forces = np.array(solved.T, order="C"), np.array(forces.T, order="C")
         for _ in range(2):
-            energy = np.einsum("ks,ks->k", vectors, forces)
-            overlap = vectors @ own_forces.T
-            vectors -= overlap @ basis
-            forces -= overlap @ own_forces
+            energy = _measure_energy(vectors, forces)
+            _take_away(vectors, forces, basis, own_forces)
             # what is left of a vector of the basis is rounding: made a unit vector it spoils all
-            left = np.einsum("ks,ks->k", vectors, forces) > DEPENDENT * energy
-            vectors, forces = _orthonormalise(vectors[left], forces[left])
+            left = _measure_energy(vectors, forces) > DEPENDENT * energy
+            if not left.all():
+                vectors, forces = vectors[left], forces[left]
+            vectors, forces = _orthonormalise(vectors, forces)
         if not len(vectors):
             return solved
         new = old + len(vectors)
@@ -201,14 +211,23 @@ class _Subspace:
             self._room = np.concatenate([self._room, np.empty_like(self._room)], axis=1)
         self._room[0, old:new], self._room[1, old:new] = vectors, forces
         self._count = new
-        basis = self._room[0, :new]
-        added = np.stack([basis @ applied for applied in self._apply(vectors.T)])
+        added = self._project(vectors)
         grown = np.zeros((len(self._projected), new, new))
         grown[:, :old, :old] = self._projected
         grown[:, :, old:] = added
         grown[:, old:, :old] = added[:, :old].transpose(0, 2, 1)
         self._projected = grown
         return solved
+
+    def _project(self, vectors: np.ndarray) -> np.ndarray:
+        """Return K_g of every case between the basis and vectors (k, size): (cases, basis, k)."""
+        basis = self._room[0, : self._count]
+
+        def project(part: slice) -> np.ndarray:
+            return np.stack([basis @ applied for applied in self._apply(vectors[part].T)])
+
+        parts = divide(len(vectors), self.size, LEAST_COLUMNS)
+        return _join(list(run_parts(project, parts)), axis=2)
 
     def largest(self, factors: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
         """Return the largest mu = 1 / lambda (count, c) and their coefficients (count, k, c)."""
@@ -218,11 +237,51 @@ class _Subspace:
         return values[:, : -count - 1 : -1].T, vectors[:, :, : -count - 1 : -1].transpose(2, 1, 0)
 
 
+def _join(parts: list[np.ndarray], axis: int) -> np.ndarray:
+    return parts[0] if len(parts) == 1 else np.concatenate(parts, axis=axis)
+
+
+def _measure_energy(vectors: np.ndarray, forces: np.ndarray) -> np.ndarray:
+    """Return the products (k,) of the long rows of two arrays (k, size)."""
+
+    def measure(part: slice) -> np.ndarray:
+        return np.einsum("ks,ks->k", vectors[:, part], forces[:, part])
+
+    return reduce(np.add, run_parts(measure, divide_rows(vectors.shape[1], vectors.shape[1])))
+
+
+def _multiply(one: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Return one other^T (k, n) of long rows; those of large meshes are summed part by part."""
+    parts = divide_rows(one.shape[1], one.shape[1])
+    return reduce(np.add, run_parts(lambda part: one[:, part] @ other[:, part].T, parts))
+
+
+def _take_away(vectors, forces, basis, own_forces) -> None:
+    """Take from vectors and forces (k, size) what they have of the basis, in place."""
+    overlap = _multiply(vectors, own_forces)
+
+    def subtract(part: slice) -> None:
+        vectors[:, part] -= overlap @ basis[:, part]
+        forces[:, part] -= overlap @ own_forces[:, part]
+
+    list(run_parts(subtract, divide_rows(vectors.shape[1], vectors.shape[1])))
+
+
 def _orthonormalise(vectors: np.ndarray, forces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Make vectors forces^T (= Z K Z^T, rows Z) the identity, leaving out dependent directions."""
-    gram = vectors @ forces.T
+    """Make vectors forces^T (= Z K Z^T, rows Z) the identity, leaving out dependent directions.
+
+    In place: what was handed over is not to be used again.
+    """
+    gram = _multiply(vectors, forces)
     scale = 1 / np.sqrt(np.maximum(np.diag(gram), 1e-300))
     values, rotation = np.linalg.eigh((gram + gram.T) / 2 * scale * scale[:, None])
     keep = values > 1e-12
     mix = (scale[:, None] * rotation[:, keep] / np.sqrt(values[keep])).T
-    return mix @ vectors, mix @ forces
+    kept = len(mix)
+
+    def turn(part: slice) -> None:
+        vectors[:kept, part] = mix @ vectors[:, part]
+        forces[:kept, part] = mix @ forces[:, part]
+
+    list(run_parts(turn, divide_rows(vectors.shape[1], vectors.shape[1])))
+    return vectors[:kept], forces[:kept]

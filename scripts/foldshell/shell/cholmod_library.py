@@ -10,6 +10,7 @@ and returns None where anything differs, in which case the caller keeps to cvxop
 
 import ctypes
 import struct
+import threading
 import weakref
 from functools import lru_cache
 
@@ -65,11 +66,11 @@ class _FactorHead(ctypes.Structure):
 
 
 class CholmodLibrary:
-    """The functions in use, with one workspace."""
+    """The functions in use, with one workspace for each thread."""
 
     def __init__(self, library: ctypes.CDLL) -> None:
         pointer = ctypes.c_void_p
-        self._common = ctypes.create_string_buffer(COMMON_BYTES)
+        self._own = threading.local()
         for name, result, arguments in (
             ("start", ctypes.c_int, [pointer]),
             ("analyze_p", pointer, [pointer] * 3 + [ctypes.c_size_t, pointer]),
@@ -82,10 +83,21 @@ class CholmodLibrary:
             function = getattr(library, f"cholmod_l_{name}")
             function.restype, function.argtypes = result, arguments
             setattr(self, f"_{name}", function)
-        if not self._start(self._common):
+        _ = self._common
+
+    @property
+    def _common(self) -> ctypes.Array:
+        """The settings and the workspace of this thread; raises `OSError` for another layout."""
+        if not hasattr(self._own, "common"):
+            self._own.common = self._begin()
+        return self._own.common
+
+    def _begin(self) -> ctypes.Array:
+        common = ctypes.create_string_buffer(COMMON_BYTES)
+        if not self._start(common):
             raise OSError("cholmod_l_start")
         for form, offset, expected in DEFAULTS:
-            if struct.unpack_from(form, self._common.raw, offset) != expected:
+            if struct.unpack_from(form, common.raw, offset) != expected:
                 raise OSError("cholmod_common has another layout")
         for offset, value in (
             (SUPERNODAL_AT, ALWAYS_SUPERNODAL),
@@ -94,7 +106,8 @@ class CholmodLibrary:
             (ORDERING_AT, NATURAL),
             (POSTORDER_AT, AS_IT_IS),
         ):
-            struct.pack_into("i", self._common, offset, value)
+            struct.pack_into("i", common, offset, value)
+        return common
 
     def analyse(self, indptr: np.ndarray, indices: np.ndarray) -> "CholmodHandle":
         """Analyse the pattern of a lower triangle in the order in which it is numbered.
@@ -123,8 +136,13 @@ class CholmodLibrary:
             raise ArithmeticError(int(order[head.minor]))
         return numeric
 
-    def solve(self, numeric: "CholmodHandle", right_hand_sides: np.ndarray) -> np.ndarray:
-        """Return K^-1 B for B (size, k), all columns at once.
+    def solve(
+        self,
+        numeric: "CholmodHandle",
+        right_hand_sides: np.ndarray,
+        into: np.ndarray | None = None,
+    ) -> np.ndarray:
+        """Return K^-1 B for B (size, k), all columns at once, in an array of its own or `into` one.
 
         B in kN and kNm, the result in m and rad.
         """
@@ -135,9 +153,13 @@ class CholmodLibrary:
         if not answer:
             raise MemoryError(f"CHOLMOD could not solve for {columns} right-hand sides")
         values = ctypes.cast(answer.contents.x, ctypes.POINTER(ctypes.c_double))
-        result = np.ctypeslib.as_array(values, (columns, rows)).copy().T
+        result = np.ctypeslib.as_array(values, (columns, rows)).T
+        if into is None:
+            result = result.copy(order="F")
+        else:
+            into[:] = result
         self._free_dense(ctypes.byref(answer), self._common)
-        return result
+        return result if into is None else into
 
     def _handle(self, address: int | None) -> "CholmodHandle":
         if not address:

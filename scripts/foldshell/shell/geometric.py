@@ -12,6 +12,7 @@ from functools import lru_cache
 
 import numpy as np
 
+from foldshell.files.threads import LARGE
 from foldshell.shell.nodal import gather_forces
 from foldshell.shell.reference import orthonormal_basis, reference_triangle, triangle_quadrature
 from foldshell.shell.stiffness import ShellOperators
@@ -107,13 +108,17 @@ class GeometricProducts:
         Factors without unit; vectors and results in any, and kN/m times it.
         """
         mesh, count = self._mesh, vectors.shape[1]
-        moved = self._gather(vectors).reshape(-1, 3, count).transpose(2, 0, 1)
-        flat = self._matrices.reshape(len(self._matrices), -1)
-        shape = self._matrices.shape[1:]
-        element = np.empty((shape[0], shape[1], 3, count))
-        for column, share in enumerate(factors.T):
-            matrix = (share @ flat).reshape(shape)
-            element[..., column] = np.matmul(matrix, moved[column][mesh.elements])
+        moved = self._gather(vectors).reshape(-1, 3, count).swapaxes(1, 2).copy()
+        cases, elements, nodes, _ = self._matrices.shape
+        element, shares = np.empty((elements, nodes, 3, count)), factors.T.copy()
+        for start in range(0, elements, CHUNK):
+            part = slice(start, start + CHUNK)
+            own = self._matrices[:, part].reshape(cases, -1)
+            # one product for all is quicker, but ends in other digits
+            mixed = shares @ own if len(vectors) >= LARGE else np.stack([s @ own for s in shares])
+            local = moved[mesh.elements[part]].transpose(2, 0, 1, 3)
+            pushed = np.matmul(mixed.reshape(count, -1, nodes, nodes), local)
+            element[part] = pushed.transpose(1, 2, 3, 0)
         result = np.zeros(vectors.shape)
         self._scatter(element.reshape(-1, 3 * count), result)
         return result

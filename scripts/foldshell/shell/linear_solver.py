@@ -5,6 +5,7 @@ from typing import Any, Protocol
 
 import numpy as np
 
+from foldshell.files.threads import LARGE, count_threads, run_parts
 from foldshell.shell.assembly import LowerPattern
 from foldshell.shell.cholmod_library import open_library
 
@@ -58,7 +59,20 @@ class CholmodFactor:
 
     def solve(self, right_hand_sides: np.ndarray) -> np.ndarray:
         """Return K^-1 B for B (size, k). B in kN and kNm, the result in m and rad."""
-        return self._library.solve(self._factor, right_hand_sides)
+        count = right_hand_sides.shape[1]
+        if len(right_hand_sides) < LARGE or count < 3:
+            return self._library.solve(self._factor, right_hand_sides)
+        # an even number of columns, which two threads share evenly: others end in other kernels
+        block = np.zeros((len(right_hand_sides), count + count % 2), order="F")
+        block[:, :count] = right_hand_sides
+        middle = (block.shape[1] + 2) // 4 * 2
+        parts = [slice(0, middle), slice(middle, None)] if count_threads() > 1 else [slice(None)]
+
+        def solve(part: slice) -> None:
+            self._library.solve(self._factor, block[:, part], into=block[:, part])
+
+        list(run_parts(solve, parts))
+        return block[:, :count]
 
 
 class CvxoptFactor:

@@ -9,6 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from foldshell.files.threads import run_parts
+
 DEPTH = 6
 """Steps that Anderson's method remembers."""
 
@@ -45,18 +47,23 @@ def solve_second_order(
     changes = np.full((3, first_order.shape[1]), np.inf)
     memory = [_AndersonColumn() for _ in range(first_order.shape[1])]
     iterations = 0
+
+    def advance(one: tuple[int, np.ndarray]) -> None:
+        """Take the step to the image (free,) of a column."""
+        column, image = one
+        step = image - current[:, column]
+        scale = np.abs(image).max() or 1.0
+        changes[:, column] = [*changes[1:, column], np.abs(step).max() / scale]
+        residual[column] = _expect_change(*changes[:, column])
+        current[:, column] = memory[column].advance(current[:, column], step)
+
     while iterations < iterations_max:
         active = np.flatnonzero(~(residual <= tolerance))
         if not len(active) or not np.isfinite(current).all():
             break
         image = first_order[:, active] + correction(current[:, active], active)
         iterations += 1
-        for position, column in enumerate(active):
-            step = image[:, position] - current[:, column]
-            scale = np.abs(image[:, position]).max() or 1.0
-            changes[:, column] = [*changes[1:, column], np.abs(step).max() / scale]
-            residual[column] = _expect_change(*changes[:, column])
-            current[:, column] = memory[column].advance(current[:, column], step)
+        list(run_parts(advance, list(zip(active, image.T, strict=True))))
     return SecondOrderResult(current, iterations, residual, bool((residual <= tolerance).all()))
 
 

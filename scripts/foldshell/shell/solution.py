@@ -7,7 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from foldshell.shell.buckling import BucklingResult, find_buckling_factors
+from foldshell.files.threads import divide, run_parts
+from foldshell.shell.buckling import LEAST_COLUMNS, BucklingResult, find_buckling_factors
 from foldshell.shell.effort import Effort
 from foldshell.shell.geometric import GeometricProducts, apply_geometric
 from foldshell.shell.linear_solver import Factor, factorise
@@ -41,14 +42,13 @@ class Solution:
         self.model, self._thickness = model, thickness
         self._modulus = material.youngs_modulus
         self._factor: Factor = factorise(model.pattern, values, solver)
+        self._diagonal = values[model.pattern.indptr[:-1]]
         self._dofs = model.pattern.dofs
 
-    def is_singular(self, values: np.ndarray) -> bool:
-        """Tell whether the factor of the stiffness `values` (nnz,) is one of round-off.
-
-        In kN/m, kN and kNm.
-        """
-        return is_singular(self._factor.solve, self.model.pattern, values)
+    @property
+    def is_singular(self) -> bool:
+        """Whether the factor is one of round-off."""
+        return is_singular(self._factor.solve, self._diagonal)
 
     def solve(
         self, forces: np.ndarray, strains: np.ndarray | None, moved: np.ndarray | None
@@ -106,14 +106,18 @@ class Solution:
 
         def correction(displacement: np.ndarray, columns: np.ndarray) -> np.ndarray:
             """Return -K^-1 K_g(N(u)) u of displacements u (free, k), m and rad."""
+            parts = divide(len(columns), len(dofs), LEAST_COLUMNS)
+            pushed = list(run_parts(lambda p: push(displacement[:, p], columns[p]), parts))
+            return -self._factor.solve(pushed[0] if len(pushed) == 1 else np.hstack(pushed))
+
+        def push(displacement: np.ndarray, columns: np.ndarray) -> np.ndarray:
             full = np.zeros((len(first_order), displacement.shape[1]))
             if state.settled is not None:
                 full = state.settled[:, columns]
             full[dofs] = displacement
             imposed = None if state.imposed is None else state.imposed[..., columns]
             shape = full if state.imperfection is None else full + state.imperfection[:, None]
-            force = apply_geometric(operators, self.forces(full, imposed), shape)
-            return -self._factor.solve(force[dofs])
+            return apply_geometric(operators, self.forces(full, imposed), shape)[dofs]
 
         return solve_second_order(first_order[dofs], correction, tolerance, iterations_max)
 

@@ -57,6 +57,19 @@ def test_rosenbrock_minimum_is_found():
     assert minimum.vertices[0] == pytest.approx([1, 1, 0], abs=1e-8)
 
 
+def test_a_shortened_step_spares_factorisations():
+    """Along the curved valley full steps rise at first; both ways end in the same minimum."""
+    ended = [
+        minimise_terms(
+            [_Rosenbrock()], np.array([[-1.2, 1.0, 0.0]]), damping=1e-9, shorten=shorten,
+            max_iterations=100, cost_tolerance=1e-12, step_tolerance=1e-12,
+        )
+        for shorten in (False, True)
+    ]  # fmt: skip
+    assert ended[1].vertices[0] == pytest.approx([1, 1, 0], abs=1e-8)
+    assert ended[1].iterations < ended[0].iterations
+
+
 class _Point:
     """r = (x - 1.2, y): nearest point (1.2, 0)."""
 
