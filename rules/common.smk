@@ -104,7 +104,8 @@ def decisions(wildcards):
 def names_of_tag(tag):
     """Return the names of the designs with a tag."""
     with user_errors():
-        return [design.name for design in select_designs(DESIGNS, tag, SETTINGS.designs)]
+        names = [design.name for design in select_designs(DESIGNS, tag, SETTINGS.designs)]
+    return check_memory(names)
 
 
 include: "library.smk"

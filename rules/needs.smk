@@ -1,8 +1,16 @@
-# What jobs need: memory, and time for a cluster's queue, from panels and subdivisions. All take one
-# thread: with more, sums are taken in another order, and results would hang on the machine.
+# What jobs need: memory, and time for a cluster's queue, from panels and subdivisions. They take one
+# thread; analyses of large designs two, with parts that hang on the design alone: the same bytes.
 
 from foldshell.engine.few_jobs import FEW
-from foldshell.engine.memory import estimate_memory, find_free_memory, guess_nodes, share_memory
+from foldshell.engine.memory import (
+    check_room,
+    choose_threads,
+    estimate_memory,
+    find_free_memory,
+    find_memory,
+    guess_nodes,
+    share_memory,
+)
 from foldshell.engine.minutes import estimate_minutes
 
 # For jobs that run and for processes that wait; elsewhere a cluster knows what there is.
@@ -43,6 +51,20 @@ def minutes_of(kind, times=1):
 def needs_of(kind, times=1):
     """Return the resources of a rule."""
     return {"mem_mb": memory_of(kind), "runtime": minutes_of(kind, times)}
+
+
+def threads_of(wildcards):
+    """Return the threads of an analysis of a design."""
+    return choose_threads(nodes_of(wildcards.design))
+
+
+def check_memory(names):
+    """End with a sentence where the memory of this machine is too small for a design."""
+    memory = find_memory() if runs_here() else None
+    with user_errors():
+        for name in names:
+            check_room(name, BY_NAME[name].panels, nodes_of(name), memory)
+    return names
 
 
 def rank_of(job):

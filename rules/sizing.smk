@@ -40,6 +40,7 @@ checkpoint analyse:
         timing("analyse", "-{iteration}")
     conda:
         "../envs/foldshell.yaml"
+    threads: threads_of
     resources:
         **needs_of("analyse"),
     params:

@@ -37,6 +37,7 @@ rule size:
         timing("size")
     conda:
         "../envs/foldshell.yaml"
+    threads: threads_of
     resources:
         **needs_of("analyse", SETTINGS.sizing.iterations_max),
     params:

@@ -7,6 +7,7 @@ from typing import Any
 
 from foldshell.files.errors import user_errors
 from foldshell.files.job_record import JobRecord, hash_inputs, list_outputs, state_of, write_record
+from foldshell.files.threads import use_threads
 from foldshell.files.whole import SECONDS, hash_data, hash_file, held_back
 
 LISTS = ".snakemake/"
@@ -23,8 +24,11 @@ def run_job(task: Any) -> Iterator[None]:
 
     Inputs are hashed before the block, outputs after it: what is recorded is what the job read and
     wrote. The first output is what others wait for: it comes into place last, after the record. An
-    error that a person can act on becomes one line and leaves no record.
+    error that a person can act on becomes one line and leaves no record. Large work in the block
+    uses the threads of the job.
     """
+    if hasattr(task, "threads"):
+        use_threads(task.threads)
     awaited = str(task.output[0])
     with user_errors(), held_back(awaited) as content:
         inputs = hash_inputs(task.input)

@@ -9,6 +9,8 @@ from collections.abc import Iterable, Mapping
 from pathlib import Path
 from types import MappingProxyType
 
+from foldshell.files.errors import InputError
+from foldshell.files.threads import LARGE, MOST
 from foldshell.shell.mesh import split_subdivisions
 
 MB_AND_PER_NODE: Mapping[str, tuple[float, float]] = MappingProxyType({
@@ -21,6 +23,9 @@ MB_AND_PER_NODE: Mapping[str, tuple[float, float]] = MappingProxyType({
     "page": (175, 0.010),
 })  # fmt: skip
 """By rule: memory (MB) without a mesh, and for each node of the mesh that designs are sized on."""
+
+FREEDOMS_A_NODE, KB_A_FREEDOM, EMPTY_MB = 3.6, 8.0, 300
+"""Of an analysis of a large design, measured at 60,000 to a million freedoms; MB before it."""
 
 BYTES_A_PANEL = 60
 """Of a file of a folded sheet or a pattern; those in binary have fewer."""
@@ -58,10 +63,38 @@ def estimate_memory(rule: str, nodes: int) -> int:
     return round(base + each * nodes)
 
 
+def choose_threads(nodes: int) -> int:
+    """Return on how many parts of an analysis of so many nodes a job works at once."""
+    return MOST if FREEDOMS_A_NODE * nodes >= LARGE else 1
+
+
+def check_room(name: str, panels: int, nodes: int, memory: int | None) -> None:
+    """Raise `InputError` for a design whose analysis takes more than the machine's memory (MB).
+
+    Nothing is known without a memory. panels and nodes are those of the design's mesh.
+    """
+    freedoms = FREEDOMS_A_NODE * nodes
+    need = EMPTY_MB + KB_A_FREEDOM * freedoms / 1024
+    if memory is not None and need > memory:
+        raise InputError(
+            f"design {name}: {panels} panels have some {freedoms:.3g} freedoms, whose analysis "
+            f"takes {need / 1024:.1f} GB of memory: this machine has {memory / 1024:.1f} GB; fewer "
+            "panels or subdivisions are allowed, or a machine with more"
+        )
+
+
+def find_memory() -> int | None:
+    """Return the memory (MB) of this machine, at most what this process's group may have."""
+    known = _read_limits()
+    if hasattr(os, "sysconf") and "SC_PHYS_PAGES" in os.sysconf_names:
+        known.append(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // 2**20)
+    return min(known) if known else None
+
+
 def find_free_memory() -> int | None:
     """Return the memory (MB) that is free: what the system says, at most what this process's group
     may have; None where neither is known."""
-    known = []
+    known = _read_limits()
     try:
         lines = Path("/proc/meminfo").read_text(encoding="ascii").splitlines()
         found = dict(line.split(":") for line in lines)
@@ -69,12 +102,18 @@ def find_free_memory() -> int | None:
     except (OSError, ValueError, KeyError):
         if hasattr(os, "sysconf") and "SC_PHYS_PAGES" in os.sysconf_names:
             known.append(os.sysconf("SC_PHYS_PAGES") * os.sysconf("SC_PAGE_SIZE") // 2**20)
+    return min(known) if known else None
+
+
+def _read_limits() -> list[int]:
+    """Return the memory (MB) that groups of processes may have, where one is set."""
+    known = []
     for path in _LIMITS:
         try:
             known.append(int(Path(path).read_text(encoding="ascii")) // 2**20)
         except (OSError, ValueError):  # no limit is written as a word
             continue
-    return min(known) if known else None
+    return known
 
 
 def share_memory(free: int | None) -> tuple[int | None, int | None]:

@@ -2,11 +2,15 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
 from foldshell.folding.normal_equations import NormalEquations, NotPositiveDefinite
 from foldshell.folding.terms import Term
+
+Trial = tuple[np.ndarray, list[tuple[np.ndarray, np.ndarray]], float]
+"""Vertices (V, 3) m, rows of the terms there, and the cost."""
 
 
 @dataclass(frozen=True)
@@ -47,26 +51,17 @@ def minimise_terms(
     know only to first order, before its cost is counted. With `shorten` a step along which the cost
     rises is tried once more at a part of its length, which spares a factorisation.
     """
-
-    def look(trial: np.ndarray) -> tuple[np.ndarray, list, float]:
-        own = [term.evaluate(trial) for term in terms]
-        return trial, own, half_squares(own)
-
     equations = equations or NormalEquations([t.columns for t in terms], start.size)
-    vertices, growth = start, 2.0
-    _, rows, cost = look(vertices)
-    reason, iteration, fall = "", 0, np.inf
+    vertices, rows = start, [term.evaluate(start) for term in terms]
+    cost, growth, reason, iteration, fall = half_squares(rows), 2.0, "", 0, np.inf
     matrix, gradient = equations.assemble(rows)
     while not reason and iteration < max_iterations:
         iteration += 1
-        step = _solve_step(equations, matrix, gradient, damping)
-        if step is None:
-            damping, growth, trial_cost = damping * growth, growth * 2, np.inf
-        else:
-            trial, rows, trial_cost = look(retract(vertices + step.reshape(-1, 3)))
-            if shorten and cost < trial_cost < np.inf:
-                share = _find_share(-gradient @ step, trial_cost - cost)
-                trial, rows, trial_cost = look(retract(vertices + share * step.reshape(-1, 3)))
+        step, trial_cost = _solve_step(equations, matrix, gradient, damping), np.inf
+        if step is not None:
+            look = partial(_look, terms, retract, vertices)
+            slope = -gradient @ step if shorten else None
+            trial, rows, trial_cost = _try_step(look, step, cost, slope)
         if trial_cost < cost:
             shift = damping * equations.diagonal(matrix)
             damping, growth = _relax(damping, shift, step, gradient, cost - trial_cost), 2.0
@@ -75,13 +70,36 @@ def minimise_terms(
             fall = (cost - trial_cost) / cost
             vertices, cost = trial, trial_cost
             matrix, gradient = equations.assemble(rows)
-        elif step is not None:
+        else:
             damping, growth = damping * growth, growth * 2
         if step is not None and np.abs(step).max() <= step_tolerance:
             reason = reason or f"no vertex moved further than {step_tolerance:g} m"
     said = reason or f"stopped at the limit of {max_iterations} iterations"
-    slope = float(np.abs(gradient).max())
-    return Minimum(vertices, cost, slope, iteration, bool(reason), said, fall)
+    steepest = float(np.abs(gradient).max())
+    return Minimum(vertices, cost, steepest, iteration, bool(reason), said, fall)
+
+
+def _look(
+    terms: Sequence[Term],
+    retract: Callable[[np.ndarray], np.ndarray],
+    vertices: np.ndarray,
+    step: np.ndarray,
+) -> Trial:
+    """Return vertices (V, 3) after a step (n,), what the terms come to there, and their cost."""
+    trial = retract(vertices + step.reshape(-1, 3))
+    rows = [term.evaluate(trial) for term in terms]
+    return trial, rows, half_squares(rows)
+
+
+def _try_step(
+    look: Callable[[np.ndarray], Trial], step: np.ndarray, cost: float, slope: float | None
+) -> Trial:
+    """Look at a step (n,); at a part of it where the cost rises and a `slope` at its start says
+    that it falls at first."""
+    found = look(step)
+    if slope is None or not cost < found[2] < np.inf:
+        return found
+    return look(_find_share(slope, found[2] - cost) * step)
 
 
 def _find_share(slope: float, rise: float) -> float:

@@ -98,7 +98,7 @@ def _make_design(
     _check_miura(design, settings, where)
     if design.panels:
         check_thickness(design, settings.sizing, where)
-    if design.panels > settings.limits.panels_max:
+    if 0 < settings.limits.panels_max < design.panels:
         raise InputError(
             f"{where}: zigzag x strip: {design.zigzag} x {design.strip} lines are "
             f"{design.panels} panels: at most limits.panels_max = {settings.limits.panels_max} "

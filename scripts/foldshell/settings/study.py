@@ -23,11 +23,11 @@ class Limits(Group):
     """Guards."""
 
     panels_max: int = setting(
-        4000,
+        0,
         unit="panels",
-        minimum=4,
-        maximum=9000,
-        meaning="Largest number of panels of a design.",
+        ranges=((4, 10**6),),
+        meaning="Largest number of panels of a design; 0 sets none. Designs whose analysis takes "
+        "more memory than the machine has are refused in any case, 8 kB a freedom.",
     )
 
 

@@ -5,11 +5,15 @@ import pytest
 
 from foldshell.engine.memory import (
     MB_AND_PER_NODE,
+    check_room,
+    choose_threads,
     count_nodes,
     estimate_memory,
     find_free_memory,
+    find_memory,
     share_memory,
 )
+from foldshell.files.errors import InputError
 from foldshell.pattern.grid import build_grid
 from foldshell.shell.mesh import build_mesh
 
@@ -50,3 +54,20 @@ def test_processes_that_wait_have_their_share():
     assert share_memory(10_000) == (7200, 1800)
     assert share_memory(None) == (None, None)
     assert find_free_memory() > 100
+
+
+def test_a_design_beyond_the_machine_is_refused_with_what_it_takes_and_what_there_is():
+    """100 x 100 lines at n = 4 are 0.89 million freedoms: 7.1e9 bytes at 8 kB each."""
+    nodes = count_nodes(100, 100, 4)
+    check_room("roof", 9801, nodes, 8000)
+    check_room("roof", 9801, nodes, None)
+    with pytest.raises(InputError) as refused:
+        check_room("roof", 9801, nodes, 6000)
+    assert "9801 panels" in str(refused.value) and "5.9 GB" in str(refused.value)
+    assert "takes 7.0 GB" in str(refused.value)
+    assert find_memory() >= find_free_memory()
+
+
+def test_large_designs_alone_take_two_threads():
+    assert choose_threads(count_nodes(15, 16, 4)) == 1
+    assert choose_threads(count_nodes(52, 58, 4)) == 2

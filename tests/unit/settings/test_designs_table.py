@@ -245,7 +245,6 @@ def cell(column: str, value: str) -> str:
         (cell("tags", "x;y"), "with commas between"),
         (cell("tags", "x,,y"), "with commas between"),
         (cell("tags", "../x"), "with commas between"),
-        (f"{HEADER}\n" + GOOD.replace("\t15\t16", "\t100\t100") + "\n", "9801 panels: at most"),
     ],
 )
 def test_bad_table_is_refused_with_its_place(tmp_path, text, named):
@@ -254,6 +253,14 @@ def test_bad_table_is_refused_with_its_place(tmp_path, text, named):
     message = str(caught.value)
     assert "YAML" not in message and "quotes" not in message
     assert message.startswith(str(tmp_path / "designs.tsv")) and "\n" not in message
+
+
+def test_a_limit_on_panels_holds_where_one_is_set(tmp_path):
+    text = f"{HEADER}\n" + GOOD.replace("\t15\t16", "\t100\t100") + "\n"
+    assert read(tmp_path, text)[0].panels == 9801
+    settings = make_settings({"limits": {"panels_max": 4000}}, "config.yaml")
+    with pytest.raises(InputError, match=r"9801 panels: at most limits\.panels_max = 4000"):
+        read(tmp_path, text, settings)
 
 
 def test_unknown_tag_names_the_nearest(designs):
