@@ -9,7 +9,6 @@ import pytest
 
 from foldshell.explore.evaluate import evaluate, screen
 from foldshell.explore.folded import fold_candidate, make_design
-from foldshell.explore.slopes import differentiate, find_slopes, respond, size_state
 from foldshell.explore.tables import (
     describe_search,
     read_candidate,
@@ -153,48 +152,3 @@ def test_other_patterns_and_plans_are_candidates(pattern, panels):
     assert record.value_of("span_ratio") == pytest.approx(1.125, abs=1e-5)
     quads = struct.unpack_from("<III", base64.b64decode(record.geometry))
     assert quads == ((56, 42, 8) if pattern == "smooth" else (56, 84, 0))
-
-
-@pytest.mark.slow
-def test_slopes_are_of_first_order():
-    """f(x + h) - f(x) - h f'(x) falls with h^2 (order 2.0 +- 0.2): volume, and active constraints.
-
-    A constraint whose curvature is so small that its rest is below 1e-7 says nothing of the order.
-    """
-    given = exploration("optimality")
-    state = size_state(make_design_row(), STAGE, given)
-    start = respond(state, state.columns, STAGE, given)
-    variable = VARIABLES[0]
-    slope = differentiate(state, variable, STAGE, given, step=5e-4)
-    active = (state.constraints.value > 0.97) & (state.multipliers > 0)
-    rests = []
-    for step in (0.8, 0.4, 0.2):
-        moved = {**state.columns, variable.name: 60.0 + step}
-        there = respond(state, moved, STAGE, given)
-        rests.append(np.abs(np.append(
-            there.volume - start.volume - step * slope.volume,
-            (there.values - start.values - step * slope.values)[active],
-        )))  # fmt: skip
-    order = np.log2(np.array(rests[:-1]) / np.array(rests[1:]))
-    told = np.array(rests[-1]) > 1e-7
-    assert told[0] and np.abs(order[:, 0] - 2).max() < 0.2
-    assert np.abs(np.median(order[:, told], axis=1) - 2).max() < 0.2
-
-
-@pytest.mark.slow
-def test_slope_of_the_resized_volume():
-    """Against a central difference of a 28 m roof sized anew; 20 % is due, since a loop ends within
-    some 1 % of its volume and the difference is 8 % of it."""
-    row = make_design_row(span_m=28.0, height_m=10.0, zigzag=11, strip=12, support="zigzag",
-                          rest_fold_angle_deg=45.0)  # fmt: skip
-    variables = (Variable("rest_fold_angle_deg", 30.0, 62.0),)
-    given = Exploration("t", row, variables, ("volume_m3",), SearchLimits(),
-                        Search(rule="optimality", subdivisions=2))  # fmt: skip
-    plain = read_stage(search_parameters(make_settings({})), *SEARCHED)
-    stage = plain.changed(plain.sizing.changed(stop="stationary"))
-    (slope,) = find_slopes(size_state(row, stage, given), stage, given)
-    low, high = (
-        size_state({**row, "rest_fold_angle_deg": 45.0 + sign * 1.6}, stage, given).volume
-        for sign in (-1, 1)
-    )
-    assert slope.volume == pytest.approx((high - low) / 3.2, rel=0.2)
