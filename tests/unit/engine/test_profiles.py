@@ -11,8 +11,7 @@ RULE = re.compile(r"(?ms)^(?:rule|checkpoint|use rule \w+ as) (\w+)(?: with)?:\n
 ALONE = {"start", "analyse", "resize", "group", "schemas", "verify"}
 """Rules of loops by steps, which clusters do not take, and those that run where Snakemake does."""
 ASKED = {"animate", "archive_study", "crosscheck_opensees", "export_index", "fold_answer"}
-ASKED |= {"propose", "candidate", "explored", "confirm", "slopes", "explore_page"}
-ASKED |= {"explore_manifest"}
+ASKED |= {"rivals", "judged"}
 """Rules that no study asks for: each job is a submission of its own."""
 
 
@@ -36,6 +35,13 @@ def test_every_rule_of_a_study_is_in_a_group(profile):
     assert len(rules) > 25 and {"fold", "size", "page", "report"} <= rules
     assert rules - ALONE - ASKED <= groups.keys(), sorted(rules - ALONE - ASKED - groups.keys())
     assert groups.keys() <= rules | {"panel_figures"}
+
+
+def test_a_round_of_a_search_is_one_submission():
+    """Proposals and candidates of a round are one group, which other rounds are not part of."""
+    groups = read_groups("slurm")
+    assert groups["propose"] == groups["candidate"] == "round{round}"
+    assert len({groups[name] for name in ("explored", "confirm", "explore_page")}) == 1
 
 
 def test_both_profiles_have_the_same_groups():
