@@ -1,6 +1,9 @@
 """The search of the pattern as rules: killed in any round it goes on, with the same bytes."""
 
+import csv
+
 import pytest
+import yaml
 
 pytest.importorskip("sklearn", reason="envs/explore.lock is not installed")
 
@@ -94,3 +97,37 @@ def test_a_small_search_makes_a_whole_answer(code, tmp_path):
     found = ("--config", f"designs={home}/found.tsv", "results=results/again", "study=found")
     done = run(code, folder, "-n", *found)
     assert done.returncode == 0 and "small-01-" in done.stdout + done.stderr, done.stderr[-3000:]
+
+
+STEEL = """\
+base: {surface: arch, span_m: 8, height_m: 2, zigzag: 5, strip: 6, support: all}
+variables:
+  pattern: [miura, accordion]
+  rest_fold_angle_deg: [35, 55]
+  span_ratio: [0.9, 1.2]
+aims: [engineering_volume_m3, co2_kg]
+limits: {plan_coverage_min: 0.0, planarity_max: 10, edge_strain_max: 1, buckling_factor_min: 1.0}
+search:
+  {first: 4, rounds: 1, batch: 2, screened: 3, confirmed: 1, subdivisions: 1, slopes: 0,
+   rule: filtered_dead_band, measure: reinforced}
+"""
+
+
+@pytest.mark.slow
+def test_a_search_for_concrete_with_its_steel(code, tmp_path):
+    """Two patterns and another plan; the confirmed design is sized by the same measure."""
+    folder = make_folder(tmp_path / "steel", STEEL)
+    done = run(code, folder, *TARGET)
+    assert done.returncode == 0, done.stderr[-3000:]
+    with (folder / FOLDER / "explore.tsv").open() as file:
+        rows = list(csv.DictReader(file, delimiter="\t"))
+    assert {row["pattern"] for row in rows if row["candidate"] > "01"} == {"miura", "accordion"}
+    kept = [row for row in rows if row["feasible"] == "True" and row["candidate"] > "01"]
+    assert kept and all(float(row["steel_kg"]) > 0 for row in kept)
+    settings = yaml.safe_load((folder / FOLDER / "confirmed.yaml").read_text())
+    assert settings["sizing"]["measure"] == "reinforced"
+    with (folder / FOLDER / "confirmed.csv").open() as file:
+        (one,) = csv.DictReader(file)
+    assert one["engineering"] and float(one["steel_kg_m2"]) > 0
+    best = next(row for row in rows if one["design"].endswith(row["candidate"]))
+    assert float(one["span_x_m"] or 0) != float(one["span_y_m"] or 1) and best["span_ratio"]
