@@ -1,8 +1,10 @@
 """A mesh of the shell with what depends on its geometry alone: axes, quadrature, equations."""
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+from scipy.sparse import csr_matrix
 
 from crosscheck.element import Quadrature, integrate_elements
 from crosscheck.frames import Skeleton, build_facet_axes, build_skeleton, transform_outline
@@ -26,6 +28,14 @@ class Discretisation:
     size: int
     spans: Spans  # equations of each vertex and edge
     plan: Plan
+
+    @cached_property
+    def gathering(self) -> csr_matrix:
+        """Sums outline unknowns (72 F m) into equations: (size, 72 F m), ones alone."""
+        place = self.equations.ravel()
+        used = np.flatnonzero(place >= 0)
+        ones = np.ones(len(used))
+        return csr_matrix((ones, (place[used], used)), (self.size, len(place)))
 
 
 def plan_facets(vertices: np.ndarray, facets: np.ndarray) -> Plan:

@@ -16,8 +16,12 @@ from crosscheck.mesh import ReferenceFacet
 class Condensation:
     """What is needed to go from the b outer values back to the i inner ones of some matrices."""
 
-    coupling: np.ndarray  # (..., i, b) inverse(Kii) Kib
-    inverse: np.ndarray  # (..., i, i) inverse(Kii)
+    back: np.ndarray  # (..., i, i + b) inverse(Kii) [1 | -Kib]: from inner loads and outer values
+
+    @property
+    def push(self) -> np.ndarray:
+        """What inner loads add to the outer ones, -Kbi inverse(Kii): (..., b, i)."""
+        return np.swapaxes(self.back[..., self.back.shape[-2] :], -1, -2)
 
 
 @dataclass(frozen=True)
@@ -60,7 +64,7 @@ def condense(matrix: np.ndarray, kept: int) -> tuple[np.ndarray, Condensation]:
     coupling = inverse @ coupled
     schur = matrix[..., :kept, :kept] - np.swapaxes(coupled, -1, -2) @ coupling
     schur = (schur + np.swapaxes(schur, -1, -2)) / 2
-    return schur, Condensation(coupling, inverse)
+    return schur, Condensation(np.concatenate([inverse, -coupling], axis=-1))
 
 
 def assemble_blocks(element_matrices: np.ndarray, reference: ReferenceFacet) -> np.ndarray:
@@ -102,9 +106,8 @@ def allocate(part: Substructure, count: int) -> Substructure:
     """An empty substructure of `count` facets, with the sizes of `part`."""
 
     def like(step: Condensation) -> Condensation:
-        """The arrays of one step."""
-        arrays = (step.coupling, step.inverse)
-        return Condensation(*(np.empty((count, *array.shape[1:])) for array in arrays))
+        """The array of one step."""
+        return Condensation(np.empty((count, *step.back.shape[1:])))
 
     return Substructure(part.dofs, part.reference, like(part.blocks), like(part.spokes))
 
@@ -112,8 +115,7 @@ def allocate(part: Substructure, count: int) -> Substructure:
 def store(whole: Substructure, facets: np.ndarray, part: Substructure) -> None:
     """Put the condensation of some facets (S,), as numbers, in its place in that of all."""
     for into, step in ((whole.blocks, part.blocks), (whole.spokes, part.spokes)):
-        into.coupling[facets] = step.coupling
-        into.inverse[facets] = step.inverse
+        into.back[facets] = step.back
 
 
 def reduce_load(part: Substructure, load: np.ndarray) -> np.ndarray:
@@ -125,10 +127,10 @@ def reduce_load(part: Substructure, load: np.ndarray) -> np.ndarray:
     """
     border, kept = part.border, part.kept
     total = load.copy()
-    push = np.swapaxes(part.blocks.coupling, -1, -2) @ _view_blocks(part, total)
+    push = part.blocks.push @ _view_blocks(part, total)
     for k, outer in enumerate(part.outer):
-        total[:, outer] -= push[:, k]
-    total[:, :border] -= np.swapaxes(part.spokes.coupling, -1, -2) @ total[:, border:kept]
+        total[:, outer] += push[:, k]
+    total[:, :border] += part.spokes.push @ total[:, border:kept]
     return total
 
 
@@ -140,10 +142,10 @@ def recover_facets(part: Substructure, reduced: np.ndarray, outline: np.ndarray)
     border, kept = part.border, part.kept
     full = np.empty_like(reduced)
     full[:, :border] = outline
-    full[:, border:kept] = part.spokes.inverse @ reduced[:, border:kept]
-    full[:, border:kept] -= part.spokes.coupling @ outline
-    inner = part.blocks.inverse @ _view_blocks(part, reduced)
-    inner -= part.blocks.coupling @ full[:, part.outer]
+    both = np.concatenate([reduced[:, border:kept], outline], axis=1)
+    full[:, border:kept] = part.spokes.back @ both
+    outer = full.take(part.outer, axis=1)
+    inner = part.blocks.back @ np.concatenate([_view_blocks(part, reduced), outer], axis=2)
     full[:, kept:] = inner.reshape(len(full), -1, full.shape[-1])
     return full
 

@@ -34,12 +34,15 @@ class NotPositiveDefinite(ValueError):
 
 @dataclass(frozen=True)
 class Front:
-    """One elimination: unknowns `inner` in terms of `outer`, both by their turn in it."""
+    """One elimination: unknowns `inner` in terms of `outer`, both by their turn in it.
+
+    `back` (i, i + o) is L^-T [1 | -L^-1 Kio]: forward its transpose takes the inner load to what
+    the inner unknowns keep and the outer ones are given, backward it takes both to the solution.
+    """
 
     inner: slice
     outer: np.ndarray
-    inverse: np.ndarray  # (i, i) inverse(L) of the front's inner block
-    coupling: np.ndarray  # (i, o) inverse(L) Kio
+    back: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -51,17 +54,21 @@ class Factor:
 
     def solve(self, load: np.ndarray) -> np.ndarray:
         """x = inverse(K) b for b (size,) or (size, c). b in kN or kNm, x in m or rad."""
-        # cases as rows: products of a front with few long rows run at the speed of memory
-        x = np.ascontiguousarray(load[self.order].reshape(len(self.order), -1).T)
+        # one product a front and direction; a row holds the cases of an unknown, which are few:
+        # rows are gathered at the speed of memory, and long operands suit the product
+        x = load[self.order].reshape(len(self.order), -1)
         for front in self.fronts:
-            own = x[:, front.inner] @ front.inverse.T
-            x[:, front.inner] = own
-            x[:, front.outer] -= own @ front.coupling
+            count = len(front.back)
+            own = (x[front.inner].T @ front.back).T
+            x[front.inner] = own[:count]
+            outer = x.take(front.outer, axis=0)
+            outer += own[count:]
+            x[front.outer] = outer
         for front in reversed(self.fronts):
-            right = x[:, front.inner] - x[:, front.outer] @ front.coupling.T
-            x[:, front.inner] = right @ front.inverse
-        result = np.zeros((len(load), len(x)))
-        result[self.order] = x.T
+            both = np.concatenate([x[front.inner], x.take(front.outer, axis=0)])
+            x[front.inner] = (both.T @ front.back.T).T
+        result = np.empty_like(x)
+        result[self.order] = x
         return result.reshape(load.shape)
 
 
@@ -106,11 +113,6 @@ class Spans:
     def count_equations(self, groups: list[int]) -> int:
         """How many those are."""
         return int(self.count[groups].sum())
-
-    def sort_equations(self, branch: Branch) -> np.ndarray:
-        """`sort` of a branch for the equations (n,) of its `outer` groups, as numbers."""
-        count = self.count[branch.outer]
-        return _list_ranges((np.cumsum(count) - count)[branch.sort], count[branch.sort])
 
 
 def _list_ranges(start: np.ndarray, count: np.ndarray) -> np.ndarray:
@@ -184,7 +186,7 @@ def factor_sum(
     alone = np.bincount(place[place >= 0], minlength=size) == 1
     key = np.where(place < 0, -1, place + np.where(alone[place], 0, size))
     rows, none = np.argsort(key, axis=1), (place < 0).sum(axis=1)
-    work = _Elimination(iter(matrices), spans, turn, rows, none, [])
+    work = _Elimination(iter(matrices), _plan_steps(branches, spans, turn), rows, none, [])
     work.eliminate(plan.root)
     return Factor(order, tuple(work.fronts))
 
@@ -196,44 +198,74 @@ def _list_branches(branch: Branch) -> Iterator[Branch]:
     yield branch
 
 
+@dataclass(frozen=True)
+class _Step:
+    """A branch by equations: how many it eliminates, how many of those left over the first half
+    alone has, both, and the second alone; the turns of these, and `sort` of the branch."""
+
+    inner: int
+    sizes: tuple[int, int, int]
+    outer: np.ndarray
+    sort: np.ndarray | None
+
+
+def _plan_steps(branches: list[Branch], spans: Spans, turn: np.ndarray) -> Iterator[_Step]:
+    """The steps of all branches, one after the other; `turn` (size,) of the equations.
+
+    Lists of all branches are made at once: one by one they took longer than small fronts.
+    """
+    groups = np.array([group for branch in branches for group in branch.outer], dtype=np.int64)
+    first = np.cumsum([0] + [len(branch.outer) for branch in branches])
+    count = spans.count[groups]
+    end = np.concatenate([[0], np.cumsum(count)])  # equations before each group
+    outer = turn[spans.list_equations(groups)]
+    sorts = [np.array(branch.sort or [], dtype=np.int64) for branch in branches]
+    places = np.concatenate([place + at for place, at in zip(sorts, first, strict=False)])
+    sizes = count[places]
+    base = np.repeat(end[first[:-1]], [len(place) for place in sorts])
+    sort = _list_ranges(end[places] - base, sizes)
+    ends = np.concatenate([[0], np.cumsum(sizes)])[np.cumsum([0] + [len(one) for one in sorts])]
+    for k, branch in enumerate(branches):
+        only, low, high = branch.only[0], first[k], first[k + 1]
+        cuts = end[[low, low + only, low + only + branch.shared, high]].tolist()
+        yield _Step(
+            spans.count_equations(branch.inner),
+            (cuts[1] - cuts[0], cuts[2] - cuts[1], cuts[3] - cuts[2]),
+            outer[cuts[0] : cuts[3]],
+            None if branch.sort is None else sort[ends[k] : ends[k + 1]],
+        )
+
+
 @dataclass
 class _Elimination:
     """What a factorisation needs at every branch, and the fronts that it leaves."""
 
     matrices: Iterator[np.ndarray]
-    spans: Spans
-    turn: np.ndarray  # (size,) when an equation is eliminated
+    steps: Iterator[_Step]  # halves before the whole
     rows: np.ndarray  # (F, n) rows of each facet, those without an equation first
     none: np.ndarray  # (F,) how many have none
     fronts: list[Front]
 
     def eliminate(self, branch: Branch) -> np.ndarray | None:
         """Eliminate a branch; append its fronts; return the rest, as the branch above takes it."""
-        inner = self.spans.count_equations(branch.inner)
+        halves = [self.eliminate(half) for half in branch.halves]
+        step = next(self.steps)
+        inner = step.inner
         if branch.facet >= 0:
             rows = self.rows[branch.facet, self.none[branch.facet] :]
             matrix = next(self.matrices)
-            if not inner and branch.sort is not None:
-                return _pick(matrix, rows[self.spans.sort_equations(branch)])
+            if not inner and step.sort is not None:
+                return _pick(matrix, rows[step.sort])
             front = _pick(matrix, rows)
             blocks = [front[:inner, :inner], front[:inner, inner:], front[inner:, inner:]]
         else:
-            sizes = [
-                self.spans.count_equations(branch.outer[part])
-                for part in (
-                    slice(branch.only[0]),
-                    slice(branch.only[0], branch.only[0] + branch.shared),
-                    slice(branch.only[0] + branch.shared, None),
-                )
-            ]
-            blocks = _add_halves(inner, sizes, [self.eliminate(half) for half in branch.halves])
+            blocks = _add_halves(inner, step.sizes, halves)
         pivot, coupling, rest = (np.ascontiguousarray(block) for block in blocks)
         if inner:
             start = self.fronts[-1].inner.stop if self.fronts else 0
-            outer = self.turn[self.spans.list_equations(branch.outer)]
-            factors = _eliminate_front(pivot, coupling, rest)
-            self.fronts.append(Front(slice(start, start + inner), outer, *factors))
-        return None if branch.sort is None else _pick(rest, self.spans.sort_equations(branch))
+            back = _eliminate_front(pivot, coupling, rest)
+            self.fronts.append(Front(slice(start, start + inner), step.outer, back))
+        return None if step.sort is None else _pick(rest, step.sort)
 
 
 def _pick(matrix: np.ndarray, rows: np.ndarray) -> np.ndarray:
@@ -241,7 +273,9 @@ def _pick(matrix: np.ndarray, rows: np.ndarray) -> np.ndarray:
     return matrix.take(rows, axis=0).take(rows, axis=1)
 
 
-def _add_halves(inner: int, sizes: list[int], halves: list[np.ndarray]) -> list[np.ndarray]:
+def _add_halves(
+    inner: int, sizes: tuple[int, int, int], halves: list[np.ndarray]
+) -> list[np.ndarray]:
     """Sum two halves into the blocks inner-inner, inner-outer and outer-outer.
 
     `sizes` are the outer equations of the first half only, of both, and of the second only.
@@ -259,24 +293,23 @@ def _add_halves(inner: int, sizes: list[int], halves: list[np.ndarray]) -> list[
     return [first[:inner, :inner] + second[:inner, :inner], coupling, rest]
 
 
-def _eliminate_front(
-    pivot: np.ndarray, coupling: np.ndarray, rest: np.ndarray
-) -> tuple[np.ndarray, np.ndarray]:
-    """Eliminate the inner equations: inverse(L) and inverse(L) Kio, which overwrites `coupling`.
-
-    `rest` becomes the Schur complement.
-    """
-    diagonal = np.diag(pivot).copy()
+def _eliminate_front(pivot: np.ndarray, coupling: np.ndarray, rest: np.ndarray) -> np.ndarray:
+    """Eliminate the inner equations: `back` of the front. `rest` becomes the Schur complement."""
+    diagonal, inner = np.diag(pivot).copy(), len(pivot)
     lower, failed = dpotrf(pivot.T, lower=1, clean=1, overwrite_a=1)
     if failed or (np.diag(lower) ** 2 <= ROUNDING * diagonal).any():
         raise NotPositiveDefinite("a direction has no positive stiffness")
+    back = np.empty((inner, inner + coupling.shape[1]))
     if coupling.size:
         # the transposes are in Fortran's order: all is done in place
         dtrsm(1.0, lower, coupling.T, side=1, lower=1, trans_a=1, overwrite_b=1)
         dsyrk(-1.0, coupling.T, 1.0, rest.T, lower=1, overwrite_c=1)
         _mirror(rest)
+        dtrsm(-1.0, lower, coupling.T, side=1, lower=1, overwrite_b=1)
+        back[:, inner:] = coupling
     inverse, _ = dtrtri(lower, lower=1, overwrite_c=1)
-    return inverse, coupling
+    back[:, :inner] = inverse.T
+    return back
 
 
 def _mirror(matrix: np.ndarray) -> None:

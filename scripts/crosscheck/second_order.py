@@ -6,6 +6,7 @@ Kg is the integral of N_ab (u,a . u,b): all three components, since a facet also
 own plane. Columns c are load combinations throughout.
 """
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -90,10 +91,17 @@ def apply_own_geometric(system: System, local: np.ndarray) -> np.ndarray:
 
 def sum_elements(grid: Discretisation, force: np.ndarray) -> np.ndarray:
     """Forces on element nodes (..., 3, m^2, 9, k) as those on the facets' nodes (..., R, k)."""
-    total = np.zeros((*force.shape[:-4], grid.mesh.facet_nodes.shape[1], force.shape[-1]))
-    for block in range(3):
-        for k, nodes in enumerate(grid.elements[block]):
-            total[..., nodes, :] += force[..., block, k, :, :]
+    nodes, k = grid.mesh.reference.blocks, force.shape[-1]
+    m = math.isqrt(force.shape[-3])
+    side = 2 * m + 1  # nodes along a block
+    blocks = np.zeros((*force.shape[:-3], side, side, k))
+    parts = force.reshape(*force.shape[:-2], 3, 3, k)
+    for place in range(m * m):
+        row, column = 2 * (place // m), 2 * (place % m)
+        blocks[..., row : row + 3, column : column + 3, :] += parts[..., place, :, :, :]
+    total = np.zeros((*force.shape[:-4], grid.mesh.facet_nodes.shape[1], k))
+    for block, own in enumerate(nodes):
+        total[..., own, :] += blocks[..., block, :, :, :].reshape(*force.shape[:-4], -1, k)
     return total
 
 

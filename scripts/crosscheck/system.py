@@ -264,6 +264,4 @@ def _join(membrane: np.ndarray, plate: np.ndarray, nodes: int) -> np.ndarray:
 
 def _gather(grid: Discretisation, outline: np.ndarray) -> np.ndarray:
     """Sum outline values (F, 12m, 6, c) into the equations: (size, c)."""
-    place = np.where(grid.equations >= 0, grid.equations, grid.size).ravel()
-    columns = outline.reshape(-1, outline.shape[-1]).T
-    return np.array([np.bincount(place, x, grid.size + 1)[: grid.size] for x in columns]).T
+    return grid.gathering @ outline.reshape(-1, outline.shape[-1])

@@ -192,20 +192,36 @@ class ShellAnalysis:
         self._by_case = self._solution.solve(forces, self._strains, self._moved)
         self._first_order = self._by_case @ self._factors
 
-    def run(self, effort: Effort, start_modes: np.ndarray | None = None) -> AnalysisResult:
+    def run(
+        self,
+        effort: Effort,
+        start_modes: np.ndarray | None = None,
+        start: np.ndarray | None = None,
+    ) -> AnalysisResult:
         """Return first order, buckling factors and second order of all combinations.
 
-        start_modes (free, c) are buckling modes of an earlier, similar state, without unit.
+        start_modes (free, c) are buckling modes of an earlier, similar state, without unit; `start`
+        (dofs, c) m and rad are displacements with which second order begins.
         """
         if self._is_mechanism(effort):
             return self._report_mechanism()
         if not self._options.second_order:
             return self._report_first_order()
         state = self._by_case, self._strains, self._factors
-        return self.bend(self._solution.buckling(*state, start_modes, effort), effort)
+        return self.bend(self._solution.buckling(*state, start_modes, effort), effort, start)
 
-    def bend(self, buckling: BucklingResult, effort: Effort) -> AnalysisResult:
-        """Return the result of second order, if the state of first order is stable."""
+    @property
+    def first_order(self) -> np.ndarray | None:
+        """Displacements (dofs, c) of first order, None of a mechanism. m and rad."""
+        return None if self._solution is None else self._first_order
+
+    def bend(
+        self, buckling: BucklingResult, effort: Effort, start: np.ndarray | None = None
+    ) -> AnalysisResult:
+        """Return the result of second order, if the state of first order is stable.
+
+        start (dofs, c) are displacements to begin with, m and rad, by default those of first order.
+        """
         model, options, names = self._model, self._options, self._names
         basic = replace(self._report_first_order(), buckling=buckling)
         lowest = int(np.argmin(buckling.factors))
@@ -217,7 +233,7 @@ class ShellAnalysis:
         tolerance = max(options.second_order_tolerance, effort.second_order_tolerance)
         second = self._solution.second_order(
             basic.first_order, tolerance, options.second_order_iterations_max,
-            State(imperfection, basic.imposed, settled),
+            State(imperfection, basic.imposed, settled), start,
         )  # fmt: skip
         displacement = np.zeros_like(basic.first_order) if settled is None else settled.copy()
         displacement[model.pattern.dofs] = second.displacement

@@ -31,6 +31,7 @@ def solve_second_order(
     correction: Callable[[np.ndarray, np.ndarray], np.ndarray],
     tolerance: float = 1e-8,
     iterations_max: int = 60,
+    start: np.ndarray | None = None,
 ) -> SecondOrderResult:
     """Find u = u_linear + correction(u) for all columns at once.
 
@@ -41,8 +42,9 @@ def solve_second_order(
     tolerance : largest expected change, relative to the largest displacement of the column: the
         last change times the greater of the last two rates at which changes fell
     iterations_max : limit on evaluations of `correction`
+    start : (free, c) displacements near the answer to begin with, by default those of first order
     """
-    current = first_order.copy()
+    current = (first_order if start is None else start).copy()
     residual = np.full(first_order.shape[1], np.inf)
     changes = np.full((3, first_order.shape[1]), np.inf)
     memory = [_AndersonColumn() for _ in range(first_order.shape[1])]

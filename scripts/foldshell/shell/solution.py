@@ -96,11 +96,16 @@ class Solution:
         return replace(found, modes=found.modes[place])
 
     def second_order(
-        self, first_order: np.ndarray, tolerance: float, iterations_max: int, state: State
+        self,
+        first_order: np.ndarray,
+        tolerance: float,
+        iterations_max: int,
+        state: State,
+        start: np.ndarray | None = None,
     ) -> SecondOrderResult:
         """Return second-order displacements, from an imperfect shape where there is one.
 
-        first_order (dofs, c) m and rad.
+        first_order (dofs, c) m and rad, as is `start`, near the answer, to begin with.
         """
         dofs, operators = self._dofs, self.model.operators
 
@@ -119,7 +124,8 @@ class Solution:
             shape = full if state.imperfection is None else full + state.imperfection[:, None]
             return apply_geometric(operators, self.forces(full, imposed), shape)[dofs]
 
-        return solve_second_order(first_order[dofs], correction, tolerance, iterations_max)
+        begin = None if start is None else start[dofs]
+        return solve_second_order(first_order[dofs], correction, tolerance, iterations_max, begin)
 
 
 def initial_shape(
