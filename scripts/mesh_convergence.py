@@ -13,7 +13,7 @@ from foldshell.records.sheet_arrays import FoldedArrays
 from foldshell.results.governing import list_compared
 from foldshell.results.mesh_convergence import DesignOnMeshes, make_record, study_design
 from foldshell.results.mesh_order import add_third_mesh, study_facets
-from foldshell.results.mode_start import pick_modes
+from foldshell.results.mode_start import pick_known
 from foldshell.settings.analysed import LOADED
 from foldshell.settings.crosscheck import Crosscheck
 from foldshell.settings.stage import Plain, read_stage
@@ -41,7 +41,7 @@ def main(
     design = DesignOnMeshes(
         read_checked_arrays(folded_path, FoldedArrays), from_plain(support), final.thickness,
         given.material, make_load_cases(given.loads, given.material.unit_weight), named,
-        make_edge_beam(*edge_beam), pick_modes(final, list(given.combinations.all), list(named)),
+        make_edge_beam(*edge_beam), pick_known(final, report, given.combinations.all, list(named)),
     )  # fmt: skip
     record = make_record(study_design(design, subdivisions))
     write_record(study_path, add_third_mesh(record, design) if third else record)

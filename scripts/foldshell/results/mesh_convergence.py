@@ -16,11 +16,17 @@ from foldshell.records.mesh_convergence import (
 )
 from foldshell.records.plain import to_plain
 from foldshell.results.mean_fold import is_folded
-from foldshell.results.mode_start import begin_with
+from foldshell.results.mode_start import (
+    KnownState,
+    MeshBefore,
+    analyse_after,
+    analyse_known,
+    remember,
+)
 from foldshell.settings.field import Factors
 from foldshell.settings.material import Material
 from foldshell.settings.support_row import Holding
-from foldshell.shell.analysis import analyse_shell
+from foldshell.shell.analysis import ShellAnalysis
 from foldshell.shell.curved_panels import PARTS, is_curved
 from foldshell.shell.edge_beams import EdgeBeam
 from foldshell.shell.held_supports import build_supported_model, sum_supports
@@ -94,8 +100,8 @@ class _OnMesh:
 @dataclass(frozen=True)
 class DesignOnMeshes:
     """A final state and its loads, whatever the mesh: arrays of folded.npz, supports, thickness
-    (P,) m, material, load cases, compared combinations, edge beam, and buckling modes (free, c) of
-    these combinations on the mesh in use, where they are known."""
+    (P,) m, material, load cases, compared combinations, edge beam, and what an analysis on the mesh
+    in use has found of these combinations, where there is one."""
 
     folded: Mapping[str, np.ndarray]
     support: Holding
@@ -104,12 +110,16 @@ class DesignOnMeshes:
     cases: Sequence[SurfaceLoad]
     combinations: Factors
     edge_beam: EdgeBeam | None = None
-    modes: np.ndarray | None = None
+    known: KnownState | None = None
 
-    def analyse(self, mesh: Mapping[str, int], start=None):
+    def analyse(self, mesh: Mapping[str, int], before: MeshBefore | None = None):
         """Return the quantities by combination on a mesh, told by arguments of its making, and
-        model and modes for the next; `start` are those of the mesh before."""
-        return _analyse(self, mesh, start)
+        what the next one begins with; `before` is that of the mesh before."""
+        return _analyse(self, mesh, analyse_after, before)
+
+    def analyse_in_use(self, mesh: Mapping[str, int]):
+        """Return the same on the mesh in use, whose state is known."""
+        return _analyse(self, mesh, analyse_known, self.known)
 
 
 def study_mesh(
@@ -121,7 +131,6 @@ def study_mesh(
     cases: Sequence[SurfaceLoad],
     combinations: Factors,
     edge_beam: EdgeBeam | None = None,
-    modes: np.ndarray | None = None,
 ) -> MeshStudy:
     """Return each quantity on the mesh in use and on the reference mesh, by combination.
 
@@ -135,9 +144,8 @@ def study_mesh(
     panel_thickness : (P,) m
     subdivisions : of the mesh in use
     edge_beam : its panels count among the others
-    modes : (free, c) buckling modes of the combinations on the mesh in use, where they are known
     """
-    own = folded, support, panel_thickness, material, cases, combinations, edge_beam, modes
+    own = folded, support, panel_thickness, material, cases, combinations, edge_beam
     return study_design(DesignOnMeshes(*own), subdivisions)
 
 
@@ -152,15 +160,12 @@ def study_design(
         finest = 2 * subdivisions
     study = MeshStudy(subdivisions=(subdivisions, finest), reference=reference, combinations={})
     try:
-        meshes = []
-        start = None if design.modes is None else (None, design.modes)
-        for mesh in (in_use, in_use | to_plain(reference)):
-            values, start = design.analyse(mesh, start)
-            meshes.append(values)
-            start = None if reference.panel_parts else start  # modes go over on the same facets
+        coarse, before = design.analyse_in_use(in_use)
+        before = None if reference.panel_parts else before  # it goes over on the same facets
+        fine, _ = design.analyse(in_use | to_plain(reference), before)
     except MechanismError as error:
         return replace(study, reason=str(error))
-    found = {name: _pair(meshes[0][name], meshes[1][name]) for name in design.combinations}
+    found = {name: _pair(coarse[name], fine[name]) for name in design.combinations}
     return replace(study, combinations=found)
 
 
@@ -234,18 +239,17 @@ def _relative(value: float, limit: float) -> float:
     return abs(value - limit) / abs(limit) if limit else 0.0
 
 
-def _analyse(design: DesignOnMeshes, mesh, start):
-    """Analyse one mesh; return its quantities by combination, and (model, modes) for the next.
+def _analyse(design: DesignOnMeshes, mesh, run, start):
+    """Analyse one mesh; return its quantities by combination, and what the next begins with.
 
-    `start` is (model, modes) of the mesh before, or (None, modes) of this one: what a search with
-    random vectors has found.
+    `run` analyses it from `start`, what is known before.
     """
     folded, material = dict(design.folded), design.material
     arrays = mesh_folded_sheet(folded, design.support, **mesh, edge_beam=design.edge_beam)
     model = build_supported_model(mesh_from_arrays(arrays), arrays, material.poissons_ratio)
     thickness = model.to_elements(design.panel_thickness)
-    loaded = design.cases, design.combinations, None
-    result = analyse_shell(model, thickness, material, *loaded, *begin_with(start, model))
+    analysis = ShellAnalysis(model, thickness, material, design.cases, design.combinations)
+    result = run(analysis, model, start)
     if result.state == "mechanism":
         raise MechanismError(result.reason)
     first = replace(result, displacement=result.first_order, second_order=None)
@@ -256,7 +260,7 @@ def _analyse(design: DesignOnMeshes, mesh, start):
     if result.state == "ok":
         for name, second in _measure(model, result, thickness, material, arrays).items():
             values[name] = replace(values[name], second_order=second)
-    return values, result.buckling and (model, result.buckling.modes)
+    return values, remember(model, result)
 
 
 def _measure(model, result, thickness, material, arrays) -> dict[str, _OnMesh]:
