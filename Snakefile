@@ -56,6 +56,7 @@ rule all:
         lambda wildcards: study_files(SETTINGS.study),
         f"{STUDY}/report.html",
         f"{STUDY}/manifest.json",
+        f"{STUDY}/timings.csv",
 
 
 STAGES = ["pattern", "fold", "shell", "ways", "crosscheck", "checks", "study", "deliver"]

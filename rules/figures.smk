@@ -13,6 +13,8 @@ rule study_figures:
         **charts(CHARTS),
     log:
         study_log("study_figures"),
+    benchmark:
+        study_timing("study_figures")
     conda:
         "../envs/foldshell.yaml"
     params:
@@ -29,6 +31,8 @@ use rule study_figures as panel_figures with:
         **charts(PANEL_CHARTS),
     log:
         study_log("panel_figures"),
+    benchmark:
+        study_timing("panel_figures")
     message:
         "charts of the panels of all designs"
 
@@ -43,6 +47,8 @@ rule all_designs:
         tiles=f"{STUDY}/figures/tiles.json",
     log:
         study_log("all_designs"),
+    benchmark:
+        study_timing("all_designs")
     conda:
         "../envs/foldshell.yaml"
     params:

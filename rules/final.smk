@@ -31,7 +31,6 @@ rule size:
         mesh=rules.mesh.output.mesh,
         analyses=iterations,
         analysis_arrays=arrays_of(iterations),
-        classes=[CLASSES["json"], CLASSES["arrays"]],
         folded=panels_of_file,
         library=code_inputs("size"),
     output:

@@ -37,6 +37,11 @@ def study_log(rule, tag=SETTINGS.study):
     return f"{RESULTS}/logs/{rule}/{tag}.log"
 
 
+def study_timing(rule, tag=SETTINGS.study):
+    """Return where the time and memory of a job over all designs of a study are kept."""
+    return f"{RESULTS}/benchmarks/{rule}/{tag}.tsv"
+
+
 SCHEMAS = [f"{RESULTS}/schemas/{file.name}.schema.json" for file in FILES]
 
 

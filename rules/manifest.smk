@@ -12,6 +12,8 @@ rule manifest:
         manifest=f"{RESULTS}/{{design}}/manifest.json",
     log:
         log_of("manifest"),
+    benchmark:
+        timing("manifest")
     priority: AFTER_LOOP
     conda:
         "../envs/foldshell.yaml"
@@ -34,6 +36,8 @@ rule study_manifest:
         manifest=f"{STUDY}/manifest.json",
     log:
         study_log("study_manifest"),
+    benchmark:
+        study_timing("study_manifest")
     priority: AFTER_LOOP
     conda:
         "../envs/foldshell.yaml"

@@ -31,6 +31,8 @@ rule report_pages:
         ),
     log:
         study_log("report_pages"),
+    benchmark:
+        study_timing("report_pages")
     conda:
         "../envs/foldshell.yaml"
     params:
@@ -79,6 +81,8 @@ rule report:
         report=f"{STUDY}/report.html",
     log:
         study_log("report"),
+    benchmark:
+        study_timing("report")
     conda:
         "../envs/foldshell.yaml"
     params:

@@ -30,6 +30,8 @@ rule summary:
         xlsx=f"{RESULTS}/{STUDIES}/{{tag}}/summary.xlsx",
     log:
         study_log("summary", "{tag}"),
+    benchmark:
+        study_timing("summary", "{tag}")
     conda:
         "../envs/foldshell.yaml"
     params:
@@ -44,7 +46,7 @@ rule summary:
 
 rule timings:
     input:
-        lambda wildcards: study_files(SETTINGS.study),
+        lambda wildcards: timed_files(),
         library=code_inputs("timings"),
     output:
         csv=report(

@@ -13,6 +13,11 @@ def delivered_state(wildcards):
     return [f"{RESULTS}/{wildcards.design}/{file}" for file in files]
 
 
+def timed_files():
+    """Return what is made last of a study: its times are all there then."""
+    return [f"{STUDY}/report.html", f"{STUDY}/manifest.json", *study_files(SETTINGS.study)]
+
+
 def explored_tables(wildcards):
     """Return the explore.tsv of all explorations in the results."""
     found = sorted(map(str, Path(RESULTS).glob("explorations/*/explore.tsv")))

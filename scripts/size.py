@@ -5,7 +5,6 @@ from pathlib import Path
 
 from foldshell.engine.job import run_job
 from foldshell.records.history import HistoryRow
-from foldshell.records.iteration import read_classes
 from foldshell.records.table import write_rows
 from foldshell.results.gather import gather_iterations, remove_superseded, write_final
 from foldshell.settings.analysed import ANALYSED
@@ -18,7 +17,6 @@ from foldshell.workbook.history import write_history
 def main(
     mesh_path: str | Path,
     json_paths: Sequence[str | Path],
-    classes_paths: Sequence[str | Path],
     csv_path: str | Path,
     history_path: str | Path,
     final_paths: Sequence[str | Path],
@@ -31,7 +29,7 @@ def main(
     What is left behind the last is removed; edited workbooks of that stay in sizing/superseded."""
     one, given = Design.from_row(design), read_stage(settings, *ANALYSED)
     iterations = gather_iterations(json_paths, one.span, given, mesh_path)
-    report = make_design_report(iterations, one, given, {}, *read_classes(*classes_paths), folded)
+    report = make_design_report(iterations, one, given, {}, folded=folded)
     write_rows(csv_path, HistoryRow, iterations.history)
     write_history(history_path, iterations.history, *report.judged)
     write_final(*final_paths, iterations)
@@ -43,7 +41,6 @@ if "snakemake" in globals():
         main(
             snakemake.input.mesh,  # noqa: F821
             snakemake.input.analyses,  # noqa: F821
-            snakemake.input.classes,  # noqa: F821
             (files := snakemake.output).csv,  # noqa: F821
             files.history,
             (files.final, files.arrays, files.panels),

@@ -65,10 +65,7 @@ class LoopPlan:
 
     def size(self, last: int) -> Task:
         """Return the job that gathers history and final state."""
-        classes = [f"{self.folder}/classes.{kind}" for kind in ("json", "npz")]
-        inputs = Named(
-            mesh=self.mesh, **self._all_analyses(last), classes=classes, folded=self.folded
-        )
+        inputs = Named(mesh=self.mesh, **self._all_analyses(last), folded=self.folded)
         files = Named(
             final=f"{self.folder}/final.json",
             arrays=f"{self.folder}/final.npz",

@@ -17,3 +17,5 @@ class TimingRow:
     rss_max_mb: float | None = entry(
         "largest memory of a job; empty where it was too short to be measured", "MB", default=None
     )
+    after_loops_s: float = entry("wall time of these jobs after the last loop has ended", "s")
+    alone_s: float = entry("of that, the time in which nothing else ran: what one core does", "s")

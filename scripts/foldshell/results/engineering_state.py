@@ -11,9 +11,11 @@ from foldshell.checks.strips import Strips, find_strips, largest_of_panels, util
 from foldshell.settings.checks import Checks
 from foldshell.settings.combination_rules import CombinationSet
 from foldshell.settings.material import Material
-from foldshell.shell.analysis import AnalysisResult, analyse_shell
+from foldshell.shell.analysis import AnalysisResult, ShellAnalysis
+from foldshell.shell.effort import KNOWN, USUAL, Effort
 from foldshell.shell.results import support_reactions, translations
 from foldshell.shell.stress import StressResultants, stress_resultants
+from foldshell.sizing.accuracy import HIDDEN_FACTOR
 from foldshell.sizing.iteration import AnalysisCase
 
 
@@ -81,7 +83,7 @@ def analyse_final_state(
     model, material = case.model, case.material
     thickness = model.to_elements(panel_thickness)
     both = {**combinations.strength, **combinations.characteristic}
-    short = _analyse(case, thickness, material, both, modes)
+    short = _analyse(case, thickness, material, both, modes, USUAL)
     if short.state == "mechanism":
         return EngineeringState(case, combinations, thickness, short)
     strips = find_strips(model.operators, checks.strip_width)
@@ -91,13 +93,15 @@ def analyse_final_state(
     )
     creep = 0.0 if material.kind == STEEL else checks.creep_coefficient
     aged, sustained = _age(material, creep), combinations.quasi_permanent
-    long_term = _analyse(case, thickness, aged, sustained, modes)
+    known = modes if short.buckling is None else short.buckling.modes
+    long_term = _analyse(case, thickness, aged, sustained, known, KNOWN)
     cracked, which = None, np.zeros(int(model.mesh.panel.max()) + 1, dtype=bool)
     if material.kind == CONCRETE and checks.cracked_stiffness < 1:
         which = find_cracked(strips, found, thickness, material, len(combinations.strength))
         left = np.where(which[model.mesh.panel], checks.cracked_stiffness, 1.0)
         soft = aged.changed(youngs_modulus=aged.youngs_modulus * left)
-        cracked = _analyse(case, thickness, soft, sustained, modes) if which.any() else long_term
+        given = case, thickness, soft, sustained, known, KNOWN
+        cracked = _analyse(*given) if which.any() else long_term
     return EngineeringState(
         case, combinations, thickness, short, long_term, cracked, which, strips, found
     )
@@ -113,12 +117,21 @@ def _analyse(
     material: Material,
     combinations: Mapping[str, Mapping[str, float]],
     modes: np.ndarray | None,
+    effort: Effort,
 ) -> AnalysisResult:
-    """Analyse with the loop's options; its modes, repeated as they are needed, begin the search."""
-    start = None if modes is None else modes[:, np.arange(len(combinations)) % modes.shape[1]]
-    return analyse_shell(
-        case.model, thickness, material, case.placed, combinations, case.options, start
-    )
+    """Analyse with the loop's options; the last modes, repeated as they are needed, begin the
+    search.
+
+    Of sustained loads a factor decides no more than whether there is a state at all: known modes
+    suffice for that, but where the least factor is so low that one they do not see could matter.
+    """
+    given = case.model, thickness, material, case.placed, combinations, case.options
+    analysis, start = ShellAnalysis(*given), None
+    if modes is not None:
+        start = modes[:, -1 - np.arange(len(combinations)) % modes.shape[1]]
+    result = analysis.run(USUAL if start is None else effort, start)
+    low = result.least_factor is not None and result.least_factor < HIDDEN_FACTOR
+    return analysis.run(USUAL, start) if effort is not USUAL and low else result
 
 
 def find_cracked(

@@ -52,15 +52,16 @@ def make_design_report(
     design: Design,
     settings: StageSettings,
     versions: Mapping[str, str],
-    grouped: ClassesRecord,
-    grouped_arrays: ClassesArrays,
+    grouped: ClassesRecord | None = None,
+    grouped_arrays: ClassesArrays | None = None,
     folded: Paths = (),
     engineering: EngineeringRecord | None = None,
     engineering_arrays: EngineeringArrays | None = None,
 ) -> DesignReport:
     """Put the delivered analysis, the panels, the history and the settings together.
 
-    `folded` names folded.npz, where the panels are no grid.
+    `folded` names folded.npz, where the panels are no grid. The history of a loop, which is there
+    before its classes, does without these.
     """
     last, sizing = iterations.final, settings.sizing
     return DesignReport(
@@ -70,7 +71,7 @@ def make_design_report(
         grid=choose_panels(design.zigzag, design.strip, folded),
         thickness=iterations.thickness,
         utilization=iterations.utilization,
-        thickness_class=grouped_arrays.panel_class,
+        thickness_class=grouped_arrays and grouped_arrays.panel_class,
         history=iterations.history,
         loads=_list_loads(settings),
         cases=list_cases(make_load_cases(settings.loads, settings.material.unit_weight)),
@@ -88,7 +89,7 @@ def make_design_report(
 def _list_verdict(
     iterations: Iterations,
     design: Design,
-    grouped: ClassesRecord,
+    grouped: ClassesRecord | None,
     engineering: EngineeringRecord | None,
 ) -> list[Line]:
     last = iterations.final
@@ -106,7 +107,7 @@ def _list_verdict(
         *_list_headlines(last),
         Line("least buckling factor", last.least_factor),
         Line("its combination", last.least_factor_combination),
-        *_summarise_classes(grouped),
+        *([] if grouped is None else _summarise_classes(grouped)),
         Line("settings hash", last.settings_hash),
     ]
 
