@@ -9,8 +9,10 @@ from foldshell.files.whole import read_arrays, read_json, write_arrays
 from foldshell.records.analysis import write_analysis
 from foldshell.records.analysis_arrays import AnalysisArrays
 from foldshell.records.arrays import write_typed_arrays
-from foldshell.results import engineering_record
+from foldshell.results import engineering_record, engineering_state
 from foldshell.results.section_forces import average_panels
+from foldshell.shell.analysis import ShellAnalysis
+from foldshell.shell.effort import KNOWN, USUAL
 from foldshell.shell.stress import stress_resultants
 from foldshell.sizing.case import open_case
 from foldshell.sizing.iteration import IterationTask
@@ -47,6 +49,32 @@ def test_long_term_displacement_is_1_plus_phi_times_that_of_linear_theory(folder
     values = [one[0]["checks"]["displacement_long_term"]["value"] for one in (young, old)]
     assert values[1] == pytest.approx(3 * values[0], rel=1e-9)
     assert "displacement_long_term_cracked" not in old[0]["checks"]
+
+
+@pytest.mark.parametrize("load", [1.0, 900.0])
+def test_sustained_states_begin_with_known_modes_and_are_those_of_a_full_search(
+    folder, monkeypatch, load
+):
+    """Modes decide nothing but whether there is a state, so displacements are equal to the bit.
+    Under 900 times the load least factors are low: random vectors come in there."""
+    efforts = []
+
+    class Watched(ShellAnalysis):
+        def run(self, effort, start=None):
+            efforts.append(effort)
+            return super().run(USUAL if plain else effort, start)
+
+    monkeypatch.setattr(engineering_state, "ShellAnalysis", Watched)
+    heavy = {"loads": {"superimposed_dead": load, "live": load}}
+    heavy["material"] = {"strength_tension": 1.0}  # all panels crack
+    plain = False
+    found, _ = checked(folder, **heavy)
+    low = load > 1
+    assert efforts == [USUAL, KNOWN, *[USUAL] * low, KNOWN, *[USUAL] * low]
+    plain = True
+    expected, _ = checked(folder, **heavy)
+    names = ("displacement_long_term", "displacement_long_term_cracked")
+    assert [found["checks"][name] for name in names] == [expected["checks"][n] for n in names]
 
 
 def test_cracked_panels_are_softer_and_the_effect_stands_beside(folder):
