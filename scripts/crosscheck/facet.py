@@ -20,7 +20,7 @@ class Condensation:
 
     @property
     def push(self) -> np.ndarray:
-        """What inner loads add to the outer ones, -Kbi inverse(Kii): (..., b, i)."""
+        """What inner loads, kN and kNm, add to outer ones, -Kbi inverse(Kii): (..., b, i)."""
         return np.swapaxes(self.back[..., self.back.shape[-2] :], -1, -2)
 
 

@@ -44,7 +44,7 @@ def find_tail(
 ) -> dict[str, np.ndarray]:
     """Return how long each job ran after the last loop had ended, and how long of that alone, s.
 
-    `begin` and `end` are times in s. Nothing where there was no loop.
+    `begin` (J,) and `end` (J,) are times of J jobs, s. Nothing where there was no loop.
     """
     begin, end = np.asarray(begin, dtype=float), np.asarray(end, dtype=float)
     loops = end[np.asarray(rules) == LOOP]
