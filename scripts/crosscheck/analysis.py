@@ -8,9 +8,10 @@ import numpy as np
 
 from crosscheck.discretisation import Discretisation, discretise
 from crosscheck.errors import CrosscheckError, MechanismError
-from crosscheck.frontal import NotPositiveDefinite, Plan
+from crosscheck.frontal import NotPositiveDefinite
 from crosscheck.loads import combine_cases, compute_surface_loads, distribute_loads
 from crosscheck.model import Model
+from crosscheck.ordering import Plan
 from crosscheck.reactions import sum_supports
 from crosscheck.records import MULTIFRONTAL, SCIPY
 from crosscheck.stress import compute_panel_means, compute_percentile, compute_utilization

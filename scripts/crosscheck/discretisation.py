@@ -8,8 +8,8 @@ from scipy.sparse import csr_matrix
 
 from crosscheck.element import Quadrature, integrate_elements
 from crosscheck.frames import Skeleton, build_facet_axes, build_skeleton, transform_outline
-from crosscheck.frontal import Plan, Spans, plan_elimination
 from crosscheck.mesh import GRADING, Mesh, build_mesh
+from crosscheck.ordering import Plan, Spans, plan_elimination
 from crosscheck.supports import Boundary
 
 

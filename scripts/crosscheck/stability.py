@@ -13,8 +13,8 @@ from crosscheck.analysis import (
     sum_loads,
 )
 from crosscheck.buckling import Buckling, search_factors
-from crosscheck.frontal import Plan
 from crosscheck.model import Model
+from crosscheck.ordering import Plan
 from crosscheck.records import MULTIFRONTAL
 from crosscheck.search import NotSettled, Search, Steps, run_alone, solve_together
 from crosscheck.second_order import search_second_order

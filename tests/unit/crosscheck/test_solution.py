@@ -7,9 +7,10 @@ from scipy.sparse.linalg import splu
 from crosscheck.analysis import analyse_model, list_values
 from crosscheck.errors import CrosscheckError
 from crosscheck.facet import condense_facets
-from crosscheck.frontal import NotPositiveDefinite, Spans, factor_sum, plan_elimination
+from crosscheck.frontal import NotPositiveDefinite, factor_sum
 from crosscheck.mesh import build_mesh
 from crosscheck.model import read_model
+from crosscheck.ordering import Spans, plan_elimination
 from crosscheck.supports import hold_supports
 from crosscheck.system import (
     compute_element_matrices,
