@@ -42,9 +42,9 @@ def collect_timings(folder: str | Path) -> pd.DataFrame:
 def find_tail(
     rules: Sequence[str], begin: Sequence[float], end: Sequence[float]
 ) -> dict[str, np.ndarray]:
-    """Return how long each job ran after the last loop had ended, and how long of that alone.
+    """Return how long each job ran after the last loop had ended, and how long of it alone.
 
-    `begin` (J,) and `end` (J,) are times, in s. Nothing where there was no loop.
+    `begin` (J,) and `end` (J,) are times; their unit is s. Nothing where there was no loop.
     """
     begin, end = np.asarray(begin, dtype=float), np.asarray(end, dtype=float)
     loops = end[np.asarray(rules) == LOOP]
