@@ -153,14 +153,14 @@ def test_refine_gives_two_meshes_and_the_error_of_the_first(folder):
 
 def test_refine_of_a_mechanism_gives_its_reason_in_place_of_numbers(folder, monkeypatch):
     """The analysis of a mechanism has no displacements, which JSON could not hold either."""
-    real = convergence.analyse_shell
+    real = convergence.analyse_known
 
     def give_way(*arguments):
         result = real(*arguments)
         nothing = np.full_like(result.displacement, np.nan)
         return replace(result, state="mechanism", reason="node 3 moves", displacement=nothing)
 
-    monkeypatch.setattr(convergence, "analyse_shell", give_way)
+    monkeypatch.setattr(convergence, "analyse_known", give_way)
     study, primary = run_mesh_convergence(folder)
     assert study["mesh_error"] is None and study["errors"] == {}
     assert primary["reason"] == "node 3 moves" and primary["combinations"] == {}
