@@ -8,7 +8,7 @@ from foldshell.engine.job import run_job
 from foldshell.records.arrays import read_checked_arrays
 from foldshell.records.files import read_record, write_record
 from foldshell.records.mesh_convergence import MeshConvergenceRecord
-from foldshell.records.sheet_arrays import FoldedArrays, MeshArrays
+from foldshell.records.sheet_arrays import FoldedArrays
 from foldshell.settings.analysed import ANALYSED
 from foldshell.settings.codes import Codes
 from foldshell.settings.design import Design, Row
@@ -31,7 +31,7 @@ def main(
 ) -> None:
     """Write the record of the state that the loop delivers.
 
-    `paths` are folded, mesh (npz) and mesh_convergence (json), `flat_paths` folded.npz of the flat
+    `paths` are folded (npz) and mesh_convergence (json), `flat_paths` folded.npz of the flat
     sheet named `flat`, none without one; `own` is the file that `settings` of the stages `size` and
     `checks` are from, `design` a row of designs.tsv.
     """
@@ -40,7 +40,6 @@ def main(
         Design.from_row(design | {"settings": own}),
         from_plain(support),
         read_checked_arrays(paths["folded"], FoldedArrays),
-        read_checked_arrays(paths["mesh"], MeshArrays),
         subdivisions,
         read_record(paths["mesh_convergence"], MeshConvergenceRecord),
     )

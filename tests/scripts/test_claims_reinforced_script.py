@@ -41,7 +41,7 @@ def results(tmp_path_factory):
     write_small_design(folder / "small")
     settings = make_settings(OWN)
     reinforced_state.main(
-        {"folded": folder / "small/folded/folded.npz", "mesh": folder / "small/shell/mesh.npz",
+        {"folded": folder / "small/folded/folded.npz",
          "mesh_convergence": folder / "small/mesh_convergence.json"},
         folder / FOLDER / "small.json",
         [write_flat_sheet(folder / "flat.npz")],

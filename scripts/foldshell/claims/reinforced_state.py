@@ -32,14 +32,13 @@ QUANTITIES = ("displacement", "utilization", "utilization_panel_mean_max",
 
 @dataclass(frozen=True)
 class SheetToSize:
-    """A design with its supports, the arrays of its folded.npz and of mesh.npz, its subdivisions,
-    and the mesh errors of the state that the paper's criteria sized, which the engineering verdict
-    asks for."""
+    """A design with its supports, the arrays of its folded.npz, the subdivisions that it is sized
+    on, and the mesh errors of the state that the paper's criteria sized, which the engineering
+    verdict asks for."""
 
     design: Design
     support: Holding
     folded: Mapping[str, np.ndarray]
-    mesh: Mapping[str, np.ndarray]
     subdivisions: int
     errors: MeshConvergenceRecord
 
@@ -47,6 +46,12 @@ class SheetToSize:
     def layout(self) -> Layout:
         """Counts of polylines and supports."""
         return Layout(self.design.zigzag, self.design.strip, self.design.support)
+
+    def make_mesh(self, times: int) -> dict[str, np.ndarray]:
+        """Return the arrays of mesh.npz on `times` the subdivisions."""
+        design, count = self.design, times * self.subdivisions
+        beam = make_edge_beam(design.edge_beam_depth, design.edge_beam_thickness)
+        return mesh_folded_sheet(dict(self.folded), self.support, count, edge_beam=beam)
 
 
 def size_reinforced(
@@ -58,14 +63,15 @@ def size_reinforced(
     and the arrays of folded.npz of the flat sheet that is given the same volume.
     """
     design, sizing, layout = sheet.design, settings.sizing, sheet.layout
-    case = make_case(sheet.mesh, settings)
+    mesh = sheet.make_mesh(1)
+    case = make_case(mesh, settings)
     limits = mirror_panels(make_panel_grid(layout.zigzag_count, layout.strip_count),
                            sizing.symmetry)  # fmt: skip
     result = run_loop(case, design.span, sizing, limits)
     final, arrays = result.final, result.arrays
     state = layout, final, arrays, settings.combinations, sizing.measure
-    measures = measure_state(sheet.mesh, *state)
-    shell = MeshArrays(**sheet.mesh)
+    measures = measure_state(mesh, *state)
+    shell = MeshArrays(**mesh)
     judged, _ = check_final_state(case, settings, arrays, shell, design.span, sheet.errors, final)
     steel = judged.reinforcement
     return ReinforcedRecord(
@@ -97,12 +103,9 @@ def find_mesh_errors(
     sheet: SheetToSize, case: AnalysisCase, settings: StageSettings, thickness: np.ndarray
 ) -> dict[str, float | None]:
     """Return |f(2n) / f(n) - 1| of `QUANTITIES` at first order; thickness (P,) m."""
-    design = sheet.design
-    beam = make_edge_beam(design.edge_beam_depth, design.edge_beam_thickness)
-    held = sheet.support, 2 * sheet.subdivisions
-    fine = mesh_folded_sheet(dict(sheet.folded), *held, edge_beam=beam)
-    coarse, finer = (measure_first_order(one, design.span, thickness)
-                     for one in (case, make_case(fine, settings)))  # fmt: skip
+    finer_case = make_case(sheet.make_mesh(2), settings)
+    coarse, finer = (measure_first_order(one, sheet.design.span, thickness)
+                     for one in (case, finer_case))  # fmt: skip
     if coarse is None or finer is None:
         return dict.fromkeys(QUANTITIES)
     return {name: abs(finer[name] / coarse[name] - 1) if coarse[name] else None
