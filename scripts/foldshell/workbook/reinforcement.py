@@ -8,7 +8,7 @@ from foldshell.workbook.styles import Styles, add_sheet, write_value
 from foldshell.workbook.tables import Column, make_column, write_table
 
 TOTALS = (
-    "kind", "concrete_m3", "steel_kg", "steel_bars_kg", "steel_kg_m3", "steel_kg_m2",
+    "kind", "concrete_m3", "steel_kg", "steel_bars_kg", "steel_kg_m2", "steel_kg_m3",
     "steel_needed_kg_m2", "creases_m", "two_layers_share", "co2_kg", "co2_low_kg", "co2_high_kg",
     "cost", "cost_low", "cost_high",
 )  # fmt: skip
