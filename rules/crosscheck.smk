@@ -52,7 +52,8 @@ rule mesh_convergence:
         edge_beam=edge_beam,
         subdivisions=subdivisions,
         third=lambda wildcards: wildcards.design in FAMILIES.values(),
-        settings=of_stage("crosscheck"),
+        settings=lambda wildcards: of_stage("crosscheck")(wildcards)
+        | of_stage("reinforced")(wildcards),
     message:
         "{wildcards.design}: mesh error"
     script:

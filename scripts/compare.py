@@ -5,7 +5,7 @@ from pathlib import Path
 
 from crosscheck.errors import report_errors
 from crosscheck.model import read_model
-from crosscheck.primary import read_primary, read_reason
+from crosscheck.primary import read_primary, read_reason, read_reinforcement
 from crosscheck.reading import write_json
 from crosscheck.records import to_data
 from crosscheck.stability import Method
@@ -29,18 +29,18 @@ def main(
     """Read model.json and primary.json; write comparison.json and comparison.xlsx.
 
     `subdivisions` are the elements along a block side of each mesh, coarse to fine, of the first
-    comparison; where codes differ, a second one on finer meshes stands. `tolerance`
-    overrides relative tolerances by quantity; `stability` adds the buckling factors and values
-    of second order that the primary code gives, and what shear adds. `shear_factor` 5/6 is the
-    physical plate; `solver` scipy takes the plain path. A mechanism has nothing to compare:
-    `pass` is null, with the reason.
+    comparison; where codes differ, a second one on finer meshes stands. `tolerance` overrides
+    relative tolerances by quantity; `stability` adds buckling factors, values of second order that
+    the primary code gives, and what shear adds. `shear_factor` 5/6 is the physical plate; `solver`
+    scipy takes the plain path. A mechanism has nothing to compare: `pass` is null, with the reason.
     """
     model, reason = read_model(model_path), read_reason(primary_path)
     meshes = check_meshes(subdivisions)
     if reason is None:
         primary = read_primary(primary_path, model.compared_combinations)
-        method = Method(shear_factor, stability, stability, stability, solver)
-        result = compare_codes(model, primary, meshes, tolerance or {}, method)
+        laid, given = read_reinforcement(primary_path) or (None, None)
+        method = Method(shear_factor, stability, stability, stability, solver, laid)
+        result = compare_codes(model, primary, meshes, tolerance or {}, method, given)
     else:
         result = leave_out(None, reason, solver)
     write_comparison(workbook_path, model.design, result)

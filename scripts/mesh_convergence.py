@@ -1,6 +1,5 @@
 """Rule mesh_convergence: the final state on a second mesh, for its error and the cross-check."""
 
-from collections.abc import Sequence
 from pathlib import Path
 
 from foldshell.engine.job import run_job
@@ -11,11 +10,11 @@ from foldshell.records.arrays import read_checked_arrays, read_typed_arrays
 from foldshell.records.files import write_record
 from foldshell.records.sheet_arrays import FoldedArrays
 from foldshell.results.governing import list_compared
-from foldshell.results.mesh_convergence import DesignOnMeshes, make_record, study_design
-from foldshell.results.mesh_order import add_third_mesh, study_facets
+from foldshell.results.mesh_convergence import DesignOnMeshes
+from foldshell.results.mesh_order import study_meshes
 from foldshell.results.mode_start import pick_known
-from foldshell.settings.analysed import LOADED
-from foldshell.settings.crosscheck import Crosscheck
+from foldshell.results.reinforced_meshes import ask_concrete
+from foldshell.settings.analysed import MEASURED
 from foldshell.settings.stage import Plain, read_stage
 from foldshell.settings.support_row import from_plain
 from foldshell.shell.edge_beams import make_edge_beam
@@ -28,24 +27,25 @@ def main(
     study_path: str | Path,
     primary_path: str | Path,
     *,
-    support: str | Sequence[Plain],
-    edge_beam: Sequence[float],
+    support: str | list[Plain],
+    edge_beam: list[float],
     subdivisions: int,
     third: bool = False,
     settings: Plain,
 ) -> None:
     """Write mesh_convergence.json and crosscheck/primary.json; the reason for a mechanism."""
-    given, report = read_stage(settings, *LOADED, Crosscheck), read_analysis(report_path)
+    given, report = read_stage(settings, *MEASURED), read_analysis(report_path)
     final = read_typed_arrays(final_path, AnalysisArrays)
     named = list_compared(given.crosscheck, given.combinations, report, given.loads)
     design = DesignOnMeshes(
         read_checked_arrays(folded_path, FoldedArrays), from_plain(support), final.thickness,
         given.material, make_load_cases(given.loads, given.material.unit_weight), named,
         make_edge_beam(*edge_beam), pick_known(final, report, given.combinations.all, list(named)),
+        ask_concrete(given, report),
     )  # fmt: skip
-    record = make_record(study_design(design, subdivisions))
-    write_record(study_path, add_third_mesh(record, design) if third else record)
-    write_record(primary_path, study_facets(record, design))
+    record, study = study_meshes(design, subdivisions, third)
+    write_record(study_path, record)
+    write_record(primary_path, study)
 
 
 if "snakemake" in globals():

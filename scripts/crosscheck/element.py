@@ -119,6 +119,16 @@ def _interpolate_ties() -> np.ndarray:
     return np.array(weights)
 
 
+def interpolate_tied_shear(quadrature: Quadrature, tied: np.ndarray) -> np.ndarray:
+    """Transverse shear strain (xz, yz) at the Gauss points: (..., 9, 2), without unit.
+
+    tied (..., 12) are the natural shears at the tying points, those along r first.
+    """
+    ties = _interpolate_ties()
+    natural = np.stack([tied[..., :6] @ ties[0].T, tied[..., 6:] @ ties[1].T], axis=-1)
+    return (quadrature.inverse @ natural[..., None])[..., 0]
+
+
 def integrate_tied_shear(quadrature: Quadrature) -> np.ndarray:
     """S = integral of products of interpolated shear, over the element: (..., 12, 12) in m2.
 

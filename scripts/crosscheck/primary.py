@@ -4,8 +4,12 @@ from collections.abc import Iterable
 from itertools import pairwise
 from pathlib import Path
 
+import numpy as np
+
 from crosscheck.extrapolation import PRIMARY_ORDER
+from crosscheck.panel_steel import Laid
 from crosscheck.reading import Place, read_json
+from crosscheck.steel import Bars
 from crosscheck.values import KINDS, SECOND_ORDER, SUPPORTS, Code
 
 VECTORS = ("reaction_sum_kn", "load_sum_kn")
@@ -42,6 +46,36 @@ def read_primary(path: str | Path, combinations: Iterable[str]) -> Code:
         {name: orders.key(name).number(above=0.0) for name in orders.names()},
         root.key("order", PRIMARY_ORDER).number(above=0.0),
     )
+
+
+def read_reinforcement(path: str | Path) -> tuple[Laid, dict[str, list[float]]] | None:
+    """What the sheet is reinforced with, and the primary code's values of it, a value a mesh.
+
+    None where nothing is reinforced. Raises CrosscheckError as `read_primary`.
+    """
+    root = Place(Path(path).name, "", read_json(path))
+    if "reinforcement" not in root.names():
+        return None
+    place = root.key("reinforcement")
+    laid, given = place.key("laid"), place.key("quantities")
+    meshes = len(root.key("subdivisions").entries())
+    two = laid.key("two_layers_from_m")
+    bars = Bars(
+        level=laid.key("level_m").number(above=0.0),
+        two_from=np.inf if two.value is None else two.number(above=0.0),
+        mesh_lever=laid.key("central_lever_ratio").number(above=0.0),
+        yield_=laid.key("yield_kpa").number(above=0.0),
+        crush=laid.key("crush_kpa").number(above=0.0),
+        density=laid.key("density_kg_m3").number(above=0.0),
+    )
+    found = Laid(
+        bars,
+        laid.key("strip_m").number(above=0.0),
+        laid.key("shear_strip_m").number(above=0.0),
+        bool(laid.key("diagonals").value),
+        tuple(one.text() for one in place.key("combinations").entries()),
+    )
+    return found, {name: _read_meshes(given.key(name), meshes) for name in given.names()}
 
 
 def _read_values(place: Place, meshes: int) -> dict[str, list]:

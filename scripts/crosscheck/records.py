@@ -75,6 +75,19 @@ class ShearShare:
     turns_refined: Annotated[bool, Said("whether shear and mesh error together turn it")]
 
 
+@dataclass(frozen=True)
+class ReinforcementComparison:
+    """Steel that each code designs by its own forces; beside `pass`, which it does not decide."""
+
+    combinations: Annotated[list[str], Said("strength combinations that it is designed for")]
+    passed: Annotated[bool, Said("whether kg/m2 and largest steel are within 10 %", name="pass")]
+    quantities: Annotated[
+        dict[str, Limit],
+        Said("steel, largest moment and shear; finest meshes, not extrapolated"),
+    ]
+    reason: Annotated[str | None, Said("why not; else left out")] = None
+
+
 Subdivisions = Said("elements along a block's side, each mesh", "elements")
 ByName = Said("by `<combination> <quantity>`, `<combination> Th.II <quantity>` to second order")
 BySupport = Said("by `<combination> <support>`, `<combination> Th.II <support>` to second order")
@@ -112,6 +125,9 @@ class Comparison:
     )
     reason: Annotated[str | None, Said("why nothing is compared; else left out")] = None
     first: Annotated[FirstComparison | None, Said("of two comparisons; else left out")] = None
+    reinforcement: Annotated[
+        ReinforcementComparison | None, Said("where steel is designed; else left out")
+    ] = None
 
 
 def list_fields(record: type) -> Iterator[tuple[str, Any, Said]]:

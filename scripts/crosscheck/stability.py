@@ -15,6 +15,7 @@ from crosscheck.analysis import (
 from crosscheck.buckling import Buckling, search_factors
 from crosscheck.model import Model
 from crosscheck.ordering import Plan
+from crosscheck.panel_steel import Laid, measure_reinforcement
 from crosscheck.records import MULTIFRONTAL
 from crosscheck.search import NotSettled, Search, Steps, run_alone, solve_together
 from crosscheck.second_order import search_second_order
@@ -26,18 +27,22 @@ Values = dict[str, dict[str, object]]
 """Values of a mesh by combination and name."""
 
 CHANGE = 1e-5  # at which second order has settled: mesh errors are a thousand times larger
+REINFORCED = "reinforcement"
+"""Stands for the combinations that steel is designed for."""
 LARGEST_FACTOR = 1e6  # beyond it nothing buckles; a number that JSON can hold
 
 
 @dataclass(frozen=True)
 class Method:
-    """What is computed beside the first order, and how; `shear` needs one of the two others."""
+    """What is computed beside the first order, and how; `shear` needs one of the two others; what a
+    sheet is reinforced `laid` with, None for no design of it."""
 
     shear_factor: float = SHEAR_FACTOR
     buckling: bool = True
     second_order: bool = True
     shear: bool = False
     solver: str = MULTIFRONTAL
+    laid: Laid | None = None
 
 
 FIRST_ORDER = Method(buckling=False, second_order=False)
@@ -47,7 +52,8 @@ FIRST_ORDER = Method(buckling=False, second_order=False)
 def analyse_mesh(
     model: Model, subdivisions: int, method: Method, plan: Plan | None = None
 ) -> Values:
-    """All values of one mesh; second-order ones under `<combination> Th.II`.
+    """All values of one mesh; second-order ones under `<combination> Th.II`, those of the
+    reinforcement, for all its combinations together, under `REINFORCED`.
 
     `plan` is that of `plan_facets`, which all meshes of a model share.
     """
@@ -57,6 +63,8 @@ def analyse_mesh(
         found = list_stability_values(analysis, method.second_order, method.shear)
         for name, entry in found.items():
             values[name] = values.get(name, {}) | entry
+    if method.laid is not None:
+        values[REINFORCED] = dict(measure_reinforcement(analysis, method.laid))
     return values
 
 

@@ -10,8 +10,9 @@ from crosscheck.errors import CrosscheckError, MechanismError
 from crosscheck.model import Model
 from crosscheck.reactions import find_thrusts
 from crosscheck.records import MULTIFRONTAL, Comparison, FirstComparison
+from crosscheck.reinforcement import compare_reinforcement
 from crosscheck.shear import TRUE_SHEAR_FACTOR
-from crosscheck.stability import Method, analyse_mesh
+from crosscheck.stability import REINFORCED, Method, analyse_mesh
 from crosscheck.values import SECOND_ORDER, Code, build_independent
 
 
@@ -21,34 +22,42 @@ def compare_codes(
     meshes: Sequence[int],
     tolerance: Mapping[str, float],
     method: Method,
+    given: Mapping[str, Sequence[float]] | None = None,
 ) -> Comparison:
     """The comparison; failed, with the reason, where only this code finds a mechanism.
 
     Codes that differ are compared once more after the coarsest of these meshes has made way for a
     finer one: buckling modes of slender panels are still far from their limit on the meshes that
     suffice elsewhere, while what differs for another reason differs on every mesh. The second
-    comparison stands; what the first one found is kept under `first`.
+    comparison stands; what the first one found is kept under `first`. `given` are the other code's
+    values of the reinforcement that `method` says is laid; what comes of them fails no comparison.
     """
     buckling = method.buckling and "buckling_factor" in primary.names
     second = method.second_order and any(SECOND_ORDER in name for name in primary.values)
     shear = method.shear and method.shear_factor != TRUE_SHEAR_FACTOR
     method = replace(method, buckling=buckling, second_order=second, shear=shear)
+    steel = []
     try:
         plan, thrusts = plan_facets(model.vertices, model.facets), find_thrusts(model)
         runs = [analyse_mesh(model, m, method, plan) for m in meshes]
+        steel = [run.pop(REINFORCED, {}) for run in runs]
         how = (tolerance, method.solver, thrusts)
         result = compare(primary, build_independent(meshes, runs), *how)
         if not result.passed:
             kept = _keep(result)
             meshes = [*meshes[1:], meshes[-1] + 1]
             runs = [*runs[1:], analyse_mesh(model, meshes[-1], method, plan)]
+            steel = [*steel[1:], runs[-1].pop(REINFORCED, {})]
             again = compare(primary, build_independent(meshes, runs), *how)
             result = replace(again, first=kept)
     except MechanismError as error:
         return leave_out(False, str(error), method.solver)
     governing = find_governing(primary, model.compared)
     shares = share_shear(model, primary, governing, meshes, runs)
-    return replace(result, governing=governing, shear=shares)
+    result = replace(result, governing=governing, shear=shares)
+    if method.laid is None:
+        return result
+    return replace(result, reinforcement=compare_reinforcement(method.laid, given, steel))
 
 
 def check_meshes(subdivisions: Sequence[int]) -> list[int]:

@@ -65,6 +65,10 @@ LABELS = {
     "utilization_p99": "utilization, 99th percentile of area",
     "utilization_panel_mean_max": "utilization, largest panel mean",
     "buckling_factor": "buckling factor",
+    "steel_kg_m2": "steel by area, no least steel",
+    "steel_max_kn_m": "largest steel of a layer and direction",
+    "moment_max_knm_m": "largest mean moment",
+    "shear_max_kn_m": "largest mean shear (open)",
     "reaction_x_kn": "sum of reactions along x",
     "reaction_y_kn": "sum of reactions along y",
     "reaction_z_kn": "sum of reactions along z",
@@ -80,7 +84,8 @@ NUMERIC = {
 
 
 def write_comparison(path: str | Path, design: str, comparison: Comparison) -> None:
-    """Write sheets `comparison`, `meshes`, `reactions` and `shear`; what fails or turns is red."""
+    """Write sheets `comparison`, `meshes`, `reactions`, `reinforcement` and `shear`; what fails or
+    turns is red."""
     with write_whole(path) as temporary, Workbook(str(temporary)) as book:
         book.set_properties({"title": f"Cross-check of {design}", "created": CREATED})
         style = _build_styles(book)
@@ -88,6 +93,8 @@ def write_comparison(path: str | Path, design: str, comparison: Comparison) -> N
         _write_meshes(book.add_worksheet("meshes"), design, comparison, style)
         if comparison.reactions:
             _write_reactions(book.add_worksheet("reactions"), design, comparison, style)
+        if comparison.reinforcement:
+            _write_reinforcement(book.add_worksheet("reinforcement"), design, comparison, style)
         if comparison.shear:
             _write_shear(book.add_worksheet("shear"), design, comparison, style)
 
@@ -234,6 +241,28 @@ def _write_reactions(sheet: Worksheet, design: str, comparison: Comparison, styl
                 word = "passed" if entry.passed else "failed"
                 sheet.write(row, 7, word, style["result" + end])
             row += 1
+
+
+def _write_reinforcement(sheet: Worksheet, design: str, comparison: Comparison, style) -> None:
+    """Steel, moment and shear of both codes; the difference is a formula of both."""
+    found = comparison.reinforcement
+    title = f"{design}: steel for {', '.join(found.combinations)}, first order, finest meshes"
+    columns = {name: unit for name, unit in COLUMNS.items() if name != "combination"}
+    _start_sheet(sheet, title, columns, (40, 8, 13, 13, 11, 11, 9, 12, 12), style)
+    for row, (name, entry) in enumerate(found.quantities.items(), 3):
+        end = "" if entry.passed else "_failed"
+        sheet.write_row(row, 0, [LABELS[name], entry.unit], style["text" + end])
+        sheet.write_row(row, 2, [entry.primary, entry.independent], style["force" + end])
+        cells = f"C{row + 1}", f"D{row + 1}"
+        formula = f"=100*ABS({cells[0]}-{cells[1]})/MAX({cells[0]},{cells[1]})"
+        percent = style["percent" + end]
+        sheet.write_formula(row, 4, formula, percent, 100 * entry.relative_difference)
+        sheet.write(row, 5, 100 * entry.tolerance, percent)
+        sheet.write(row, 6, "passed" if entry.passed else "failed", style["result" + end])
+        errors = [entry.primary_mesh_error, entry.independent_mesh_error]
+        sheet.write_row(row, 7, [100 * error for error in errors], percent)
+    if found.reason is not None:
+        sheet.write(row + 2, 0, found.reason, style["text"])
 
 
 def _split_support(key: str) -> tuple[str, str]:

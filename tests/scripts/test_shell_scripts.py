@@ -24,6 +24,7 @@ from sizing_case import PANELS, corrugated_sheet
 
 SCRIPTS = Path(__file__).parents[2] / "scripts"
 SETTINGS = stage_parameters(make_settings({}), "crosscheck")
+REINFORCED = stage_parameters(make_settings({}), "reinforced")
 NO_BEAM = {"edge_beam": (0.0, 0.0)}
 
 
@@ -62,7 +63,7 @@ def run_mesh_convergence(folder, subdivisions=2, **options):
     names = ("folded.npz", "final.npz", "final.json", "study.json", "primary.json")
     files = [folder / name for name in names]
     mesh_convergence.main(
-        *files, support="zigzag", subdivisions=subdivisions, settings=SETTINGS,
+        *files, support="zigzag", subdivisions=subdivisions, settings=SETTINGS | REINFORCED,
         **NO_BEAM | options
     )  # fmt: skip
     return read_json(files[-2]), read_json(files[-1])

@@ -6,13 +6,8 @@ from folded_cases import CASES, COMBINATION, CONCRETE, analyse_case, load_sheet
 
 from foldshell.loads.cases import make_load_cases
 from foldshell.records.plain import to_plain
-from foldshell.results.mesh_convergence import (
-    EQUIVALENT,
-    REFERENCE,
-    estimate_errors,
-    extrapolate,
-    study_mesh,
-)
+from foldshell.results.mesh_convergence import EQUIVALENT, REFERENCE, study_mesh
+from foldshell.results.mesh_errors import estimate_errors, extrapolate
 from foldshell.settings.loads import Loads
 
 

@@ -88,6 +88,19 @@ class FirstComparison:
 
 
 @dataclass(frozen=True, kw_only=True)
+class ReinforcementComparison:
+    """Steel that each code designs by its own forces, for the same strength combinations."""
+
+    combinations: tuple[str, ...] = entry("strength combinations that it is designed for")
+    passed: bool = entry("whether kg/m2 and largest steel are within 10 %", key="pass")
+    quantities: dict[str, ComparedQuantity] = entry(
+        "steel_kg_m2 (no least steel), steel_max_kn_m (one layer and direction), moment_max_knm_m "
+        "and shear_max_kn_m (largest means of facets and strips), finest meshes, first order"
+    )
+    reason: str | None = entry("why a difference is larger", left_out=True)
+
+
+@dataclass(frozen=True, kw_only=True)
 class ComparisonRecord:
     """The contents of comparison.json."""
 
@@ -118,6 +131,9 @@ class ComparisonRecord:
     solver: str = entry("path of the independent code: multifrontal or scipy")
     first: FirstComparison | None = entry(
         "the first comparison, where a second one on finer meshes stands", left_out=True
+    )
+    reinforcement: ReinforcementComparison | None = entry(
+        "steel by both codes; beside `pass`, which it does not decide", left_out=True
     )
 
     @property

@@ -26,6 +26,7 @@ class EngineeringCheck:
     met: bool | None = entry("whether it holds; null for information")
     governing_combination: str | None = entry("the combination that governs")
     panel: int | None = entry("the panel where it governs")
+    place: str | None = entry("where in the panel, and its middle", default=None)
     mesh_error: float | None = entry("relative error of the value on the mesh in use", "-")
     within_mesh_error: bool = entry("whether the answer may turn within that error")
 

@@ -47,6 +47,36 @@ class CombinationStudy(MeshQuantities):
 
 
 @dataclass(frozen=True, kw_only=True)
+class LaidRecord:
+    """What lies in a sheet, for a code that designs its steel itself."""
+
+    level_m: float = entry("from a face to the middle of crossing bars", "m")
+    two_layers_from_m: float | None = entry(
+        "thickness from which there are two layers; null for one mesh everywhere", "m"
+    )
+    central_lever_ratio: float = entry("lever of one mesh over the thickness", "-")
+    yield_kpa: float = entry("design strength of the reinforcement", "kPa")
+    crush_kpa: float = entry("design strength of the concrete", "kPa")
+    density_kg_m3: float = entry("density of the reinforcement", "kg/m3")
+    strip_m: float = entry("width of strips for steel and struts", "m")
+    shear_strip_m: float = entry("width of strips for shear", "m")
+    diagonals: bool = entry("whether strips along diagonals inside panels count")
+
+
+@dataclass(frozen=True, kw_only=True)
+class ReinforcementStudy:
+    """Reinforcement of the compared strength combinations together, of first order."""
+
+    combinations: tuple[str, ...] = entry("combinations that the steel is designed for")
+    laid: LaidRecord = entry("what lies in the sheet")
+    quantities: dict[str, Pair] = entry(
+        "steel_kg_m2 (without least steel), steel_max_kn_m (largest of one layer and direction), "
+        "moment_max_knm_m and shear_max_kn_m (largest mean of a facet or strip), shear_over_share "
+        "(panels above v_Rd,c) and use_* (largest shares of what is allowed), each on both meshes"
+    )
+
+
+@dataclass(frozen=True, kw_only=True)
 class MeshStudy:
     """The contents of primary.json, which the independent code compares with."""
 
@@ -56,6 +86,9 @@ class MeshStudy:
     reference: ReferenceMesh = entry("how the reference mesh differs")
     combinations: dict[str, CombinationStudy] = entry("quantities by combination")
     reason: str | None = entry("why a mechanism has none", left_out=True)
+    reinforcement: ReinforcementStudy | None = entry(
+        "steel, struts, moments and shear; left out where nothing is reinforced", left_out=True
+    )
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -94,4 +127,8 @@ class MeshConvergenceRecord:
         "relative error of each quantity by combination", "-"
     )
     study: MeshStudy = entry("the values that the errors are made of")
+    reinforcement_errors: dict[str, float] | None = entry(
+        "relative error of each quantity of the reinforcement; apart, since shear settles later",
+        "-", left_out=True,
+    )  # fmt: skip
     third: ThirdMesh | None = entry("a third mesh, on one design of each family", left_out=True)

@@ -31,21 +31,32 @@ def read_verdict(path: str | Path | None) -> EngineeringRecord | None:
 
 def list_engineering(record: EngineeringRecord | None) -> list[Check]:
     """Return the checks of an engineering verdict, displacements in mm."""
-    return [] if record is None else [_show(one) for one in record.checks.values()]
+    return [] if record is None else [_show(one, record) for one in record.checks.values()]
 
 
-def _show(check: EngineeringCheck) -> Check:
+def _show(check: EngineeringCheck, record: EngineeringRecord) -> Check:
     factor, unit = (1e3, "mm") if check.unit == "m" else (1.0, check.unit)
     value, limit = (None if one is None else factor * one for one in (check.value, check.limit))
     ratio = None
     if value and limit:
         ratio = limit / value if check.at_least else value / limit
     where = [f"combination {check.governing_combination}"] * bool(check.governing_combination)
-    where += [f"panel {check.panel}"] * (check.panel is not None)
+    if check.panel is not None:
+        where.append(f"panel {check.panel}{_say_place(check, record)}")
     where += ["within the mesh error"] * check.within_mesh_error
     where += [NO_LIMIT] * (check.limit is None)
     name = f"{check.words} [{unit}]" if unit else check.words
     return Check(name, value, limit, ratio, check.met, ", ".join(where))
+
+
+def _say_place(check: EngineeringCheck, record: EngineeringRecord) -> str:
+    """Return where in its panel a check governs, else where the panel is; in m."""
+    if check.place:
+        return f" ({check.place})"
+    columns = [record.panels.get(f"centroid_{axis}_m", ()) for axis in "xyz"]
+    if any(len(one) <= check.panel for one in columns):
+        return ""
+    return " at ({:.2f}, {:.2f}, {:.2f}) m".format(*(one[check.panel] for one in columns))
 
 
 def make_engineering(record: EngineeringRecord | None) -> list[Section]:

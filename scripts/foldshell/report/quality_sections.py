@@ -8,6 +8,12 @@ from foldshell.report.reading import say_compared
 from foldshell.report.section import Box, Folded, Section, judge_met
 
 COMPARED = ("quantity", "primary", "independent", "difference [%]", "tolerance [%]", "within")
+STEEL = {
+    "steel_kg_m2": "reinforcement, no least steel",
+    "steel_max_kn_m": "reinforcement, largest of one layer and direction",
+    "moment_max_knm_m": "moment, largest mean",
+    "shear_max_kn_m": "shear, largest mean (open at ends of folds)",
+}
 NOISE = 1e-6
 """Share of the largest force up to which one is rounding and shown as 0."""
 
@@ -43,7 +49,8 @@ def make_crosscheck(comparison: ComparisonRecord) -> Section:
     note = comparison.reason
     rows = [_compare(name, item) for name, item in comparison.quantities.items()
             if not _is_reaction(name)]  # fmt: skip
-    said = [say_compared(comparison), say_shear(comparison)]
+    rows += _compare_steel(comparison)
+    said = [say_compared(comparison), say_shear(comparison), say_steel(comparison)]
     return Section(
         "Cross-check by the independent code",
         Box("good" if passed else "bad", f"{words}: {note}" if note else words),
@@ -51,6 +58,31 @@ def make_crosscheck(comparison: ComparisonRecord) -> Section:
         table=make_table(COMPARED, rows) if rows else None,
         folded=_fold_reactions(comparison),
     )
+
+
+def _compare_steel(comparison: ComparisonRecord) -> list[tuple]:
+    """Return the rows of reinforcement, moments and shear; the last two decide nothing."""
+    steel = comparison.reinforcement
+    return [] if steel is None else [
+        (
+            f"{STEEL[name]} [{SIGNS.get(item.unit, item.unit)}]", item.primary, item.independent,
+            _percent(item.relative_difference), _percent(item.tolerance), judge_met(item.passed),
+        )
+        for name, item in steel.quantities.items()
+    ]  # fmt: skip
+
+
+def say_steel(comparison: ComparisonRecord) -> str:
+    """Return under which loads both codes designed steel, and why they differ where they do."""
+    steel = comparison.reinforcement
+    if steel is None:
+        return ""
+    words = (
+        f"Steel: each code by its own forces, of first order, for {', '.join(steel.combinations)} "
+        "together; largest means of facets and strips, finest meshes; it does not decide whether "
+        "the cross-check passes."
+    )
+    return f"{words} {steel.reason[0].upper()}{steel.reason[1:]}." if steel.reason else words
 
 
 def _is_reaction(name: str) -> bool:

@@ -61,7 +61,7 @@ def check_final_state(
     except ValueError as error:
         return leave_open(str(error), settings.material, checks), EngineeringArrays()
     state = analyse_final_state(case, combinations, final.thickness, checks, final.buckling_modes)
-    reinforced = reinforce_state(state, settings)
+    reinforced = reinforce_state(state, settings, errors.reinforcement_errors)
     judged = judge_state(state, checks, span, errors, report.model_warnings or (), reinforced)
     measures, strips = measure_loop_state(state, final, len(settings.combinations.strength))
     record, arrays = make_record(state, judged, checks, measures, shell, reinforced)

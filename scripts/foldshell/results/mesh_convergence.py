@@ -9,7 +9,6 @@ from foldshell.checks.utilization import area_percentile, compute_utilization, p
 from foldshell.loads.cases import SurfaceLoad
 from foldshell.records.mesh_convergence import (
     CombinationStudy,
-    MeshConvergenceRecord,
     MeshQuantities,
     MeshStudy,
     ReferenceMesh,
@@ -22,6 +21,11 @@ from foldshell.results.mode_start import (
     analyse_after,
     analyse_known,
     remember,
+)
+from foldshell.results.reinforced_meshes import (
+    ConcreteAsked,
+    measure_reinforced,
+    pair_reinforced,
 )
 from foldshell.settings.field import Factors
 from foldshell.settings.material import Material
@@ -51,34 +55,15 @@ CURVED_REFERENCE = ReferenceMesh(panel_parts=2 * PARTS)
 """The mesh for smooth shells, whose error is that of flat facets on a curved surface: twice as many
 quads a panel, of the same subdivisions."""
 
-ORDER = 2.0
-"""Rate at which the error is taken to fall from the mesh in use to the reference mesh."""
-
 LARGEST_FACTOR = 1e6
 """Stands for the buckling factor of a structure that is not compressed at all."""
 
-QUANTITIES = (
-    "displacement_down_max_m",
-    "displacement_max_m",
-    "work_knm",
-    "utilization_p99",
-    "utilization_panel_mean_max",
-)
-
-
 SUPPORTS = "support_reactions_kn"
 """Reactions by supported edge."""
-FACTOR = "buckling_factor"
-"""Its mesh error is reported apart: modes inside slender panels settle later than all else."""
 
 
 class MechanismError(ValueError):
     """A state without displacements, and where it gives way."""
-
-
-def extrapolate(coarse: float, fine: float, ratio: float, order: float = ORDER) -> float:
-    """Return the Richardson limit fine + (fine - coarse) / (ratio^order - 1)."""
-    return fine + (fine - coarse) / (ratio**order - 1)
 
 
 @dataclass(frozen=True)
@@ -100,8 +85,8 @@ class _OnMesh:
 @dataclass(frozen=True)
 class DesignOnMeshes:
     """A final state and its loads, whatever the mesh: arrays of folded.npz, supports, thickness
-    (P,) m, material, load cases, compared combinations, edge beam, and what an analysis on the mesh
-    in use has found of these combinations, where there is one."""
+    (P,) m, material, load cases, compared combinations, edge beam, what an analysis on the mesh in
+    use has found of these, where there is one, and what reinforcement is asked for."""
 
     folded: Mapping[str, np.ndarray]
     support: Holding
@@ -111,10 +96,11 @@ class DesignOnMeshes:
     combinations: Factors
     edge_beam: EdgeBeam | None = None
     known: KnownState | None = None
+    concrete: ConcreteAsked | None = None
 
     def analyse(self, mesh: Mapping[str, int], before: MeshBefore | None = None):
-        """Return the quantities by combination on a mesh, told by arguments of its making, and
-        what the next one begins with; `before` is that of the mesh before."""
+        """Return what is found on a mesh, told by arguments of its making; `before` is that of the
+        mesh before."""
         return _analyse(self, mesh, analyse_after, before)
 
     def analyse_in_use(self, mesh: Mapping[str, int]):
@@ -160,13 +146,14 @@ def study_design(
         finest = 2 * subdivisions
     study = MeshStudy(subdivisions=(subdivisions, finest), reference=reference, combinations={})
     try:
-        coarse, before = design.analyse_in_use(in_use)
-        before = None if reference.panel_parts else before  # it goes over on the same facets
-        fine, _ = design.analyse(in_use | to_plain(reference), before)
+        coarse = design.analyse_in_use(in_use)
+        before = None if reference.panel_parts else coarse.end  # it goes over on the same facets
+        fine = design.analyse(in_use | to_plain(reference), before)
     except MechanismError as error:
         return replace(study, reason=str(error))
-    found = {name: _pair(coarse[name], fine[name]) for name in design.combinations}
-    return replace(study, combinations=found)
+    found = {name: _pair(coarse.values[name], fine.values[name]) for name in design.combinations}
+    steel = pair_reinforced(design.concrete, coarse.reinforced, fine.reinforced)
+    return replace(study, combinations=found, reinforcement=steel)
 
 
 def choose_reference(folded: Mapping[str, np.ndarray], subdivisions: int) -> ReferenceMesh:
@@ -201,46 +188,17 @@ def _pair_quantities(coarse: _OnMesh, fine: _OnMesh) -> dict[str, tuple]:
     }
 
 
-def make_record(study: MeshStudy) -> MeshConvergenceRecord:
-    """Return the contents of mesh_convergence.json."""
-    errors = estimate_errors(study)
-    return MeshConvergenceRecord(
-        **find_largest_errors(errors),
-        subdivisions=study.subdivisions[0],
-        errors=errors,
-        study=study,
-    )
+@dataclass(frozen=True)
+class _Found:
+    """Of one mesh: quantities by combination, what the next begins with, and reinforcement."""
+
+    values: dict[str, _OnMesh]
+    end: MeshBefore | None
+    reinforced: Mapping[str, float]
 
 
-def estimate_errors(study: MeshStudy) -> dict[str, dict[str, float]]:
-    """Return the relative error of each quantity on the mesh in use, {combination: {quantity}}."""
-    coarse, fine = study.subdivisions
-    found: dict[str, dict[str, float]] = {}
-    for name, values in study.combinations.items():
-        pairs = {quantity: getattr(values, quantity) for quantity in (*QUANTITIES, FACTOR)}
-        found[name] = {
-            quantity: _relative(pair[0], extrapolate(*pair, fine / coarse))
-            for quantity, pair in pairs.items()
-            if pair is not None
-        }
-    return found
-
-
-def find_largest_errors(errors: Mapping[str, Mapping[str, float]]) -> dict[str, float | None]:
-    """Return `mesh_error`, the largest but for buckling, and `buckling_mesh_error`."""
-    found = [(name == FACTOR, error) for one in errors.values() for name, error in one.items()]
-    return {
-        key: max((error for buckles, error in found if buckles == wanted), default=None)
-        for key, wanted in (("mesh_error", False), ("buckling_mesh_error", True))
-    }
-
-
-def _relative(value: float, limit: float) -> float:
-    return abs(value - limit) / abs(limit) if limit else 0.0
-
-
-def _analyse(design: DesignOnMeshes, mesh, run, start):
-    """Analyse one mesh; return its quantities by combination, and what the next begins with.
+def _analyse(design: DesignOnMeshes, mesh, run, start) -> _Found:
+    """Analyse one mesh.
 
     `run` analyses it from `start`, what is known before.
     """
@@ -260,7 +218,11 @@ def _analyse(design: DesignOnMeshes, mesh, run, start):
     if result.state == "ok":
         for name, second in _measure(model, result, thickness, material, arrays).items():
             values[name] = replace(values[name], second_order=second)
-    return values, remember(model, result)
+    steel = {}
+    if design.concrete is not None:
+        own = design.panel_thickness, material, design.concrete
+        steel = measure_reinforced(model, result, *own)
+    return _Found(values, remember(model, result), steel)
 
 
 def _measure(model, result, thickness, material, arrays) -> dict[str, _OnMesh]:

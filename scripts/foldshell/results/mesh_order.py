@@ -20,13 +20,8 @@ from foldshell.records.mesh_convergence import (
 )
 from foldshell.records.plain import to_plain
 from foldshell.results.mean_fold import is_folded
-from foldshell.results.mesh_convergence import (
-    FACTOR,
-    QUANTITIES,
-    DesignOnMeshes,
-    MechanismError,
-    study_design,
-)
+from foldshell.results.mesh_convergence import DesignOnMeshes, MechanismError, study_design
+from foldshell.results.mesh_errors import FACTOR, QUANTITIES, make_record
 from foldshell.shell.curved_panels import PARTS, is_curved
 
 CURVED_PARTS = 2
@@ -54,12 +49,20 @@ def choose_third(
     return ReferenceMesh(subdivisions=size), float(size)
 
 
+def study_meshes(
+    design: DesignOnMeshes, subdivisions: int, third: bool
+) -> tuple[MeshConvergenceRecord, MeshStudy]:
+    """Return mesh_convergence.json, with a third mesh where asked for, and primary.json."""
+    record = make_record(study_design(design, subdivisions))
+    return (add_third_mesh(record, design) if third else record), study_facets(record, design)
+
+
 def add_third_mesh(record: MeshConvergenceRecord, design: DesignOnMeshes) -> MeshConvergenceRecord:
     """Return mesh_convergence.json with what a third mesh says of the order."""
     mesh, size = choose_third(design.folded, record.subdivisions)
     own = {"subdivisions": record.subdivisions} | to_plain(mesh)
     try:
-        values, _ = design.analyse(own)
+        values = design.analyse(own).values
     except MechanismError:
         return record
     found = {

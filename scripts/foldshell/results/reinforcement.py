@@ -9,7 +9,7 @@ import numpy as np
 from foldshell.checks.concrete.detailing import crack_limit
 from foldshell.checks.concrete.envelope import Envelope
 from foldshell.checks.concrete.layout import describe_fit, refuse_layout
-from foldshell.checks.concrete.model import ConcreteModel, build_concrete_model, describe_row
+from foldshell.checks.concrete.model import ConcreteModel, build_concrete_model
 from foldshell.checks.concrete.panel_cracks import find_crack_widths
 from foldshell.checks.concrete.quantities import Quantities, sum_cost, sum_emissions, sum_steel
 from foldshell.checks.concrete.schedule import make_schedule
@@ -17,12 +17,12 @@ from foldshell.checks.concrete.use import PanelUse, find_panel_use
 from foldshell.checks.verdict import Found, hold_against
 from foldshell.records.reinforcement import BarsRecord, ReinforcementRecord
 from foldshell.results.engineering_state import EngineeringState
+from foldshell.results.reinforcement_places import CHECKS, Places, find_places
 from foldshell.settings.stage import StageSettings
 from foldshell.shell.stress import StressResultants, stress_resultants
 from foldshell.sizing.classes import group_thicknesses
 
 USES = ("strut", "ratio", "shear", "fit")
-CHECKS = ("strut", "ratio", "shear", "fit", "crack", "punching")
 WORDS = {
     "strut": "struts, EN 1992-1-1 Annex F, share of nu f_cd",
     "ratio": "steel of one direction over the largest ratio, 9.2.1.1 (3)",
@@ -45,11 +45,14 @@ class Reinforced:
     columns: Mapping[str, np.ndarray]
 
 
-def reinforce_state(state: EngineeringState, given: StageSettings) -> Reinforced | None:
+def reinforce_state(
+    state: EngineeringState, given: StageSettings, errors: Mapping[str, float] | None = None
+) -> Reinforced | None:
     """Design the reinforcement of a final state; None where the material or the settings ask for
     none.
 
-    Stages `size` and `checks` have the settings.
+    Stages `size` and `checks` have the settings; `errors` are relative ones of the mesh, by the
+    names of `ReinforcementStudy.quantities`.
     """
     asked = given.reinforcement
     if state.case.material.kind != "concrete" or asked.kind == "none" or state.resultants is None:
@@ -70,9 +73,10 @@ def reinforce_state(state: EngineeringState, given: StageSettings) -> Reinforced
     names = list(state.combinations.strength)
     sustained = list(state.combinations.quasi_permanent)
     record = _describe(state, model, use, shares, given)
-    columns = _list_columns(model, use, cracks, shares, names)
+    places = find_places(model, use, cracks, names, sustained)
+    columns = _list_columns(model, use, cracks, shares, places)
     fit = describe_fit(model.layout, thickness)
-    return Reinforced("", fit, record, _hold(shares, use, cracks, names, sustained), columns)
+    return Reinforced("", fit, record, _hold(shares, places, find_mesh_errors(errors)), columns)
 
 
 def _cut(found: StressResultants, first: int, last: int) -> StressResultants:
@@ -98,18 +102,23 @@ def _gather_shares(use: PanelUse, cracks: Envelope, limit: float) -> np.ndarray:
     return np.column_stack([use.shares, widest, use.shear.punching_use])
 
 
-def _hold(shares, use: PanelUse, cracks: Envelope, names, sustained) -> dict[str, Any]:
+def find_mesh_errors(errors: Mapping[str, float] | None) -> dict[str, float | None]:
+    """Return the relative error of each check: of shear the larger of its size and its share,
+    None for cracks, which are not studied, and for what is at its cap on both meshes."""
+    known = errors or {}
+    found = {name: known.get(f"use_{name}") or None for name in CHECKS}
+    sizes = [known[name] for name in ("use_shear", "shear_max_kn_m") if name in known]
+    return found | {"shear": max(sizes, default=None)}
+
+
+def _hold(shares: np.ndarray, places: Places, errors: Mapping[str, float | None]):
+    """Return each check by its name, where its largest share of all panels stands."""
     found = {}
     for k, name in enumerate(CHECKS):
         panel = int(shares[:, k].argmax())
-        combination = None
-        if name in use.names:
-            combination = names[use.combination[panel, use.names.index(name)]]
-        elif name == "crack":
-            side = int(cracks.value[panel].argmax())
-            combination = sustained[cracks.combination[panel, side] % len(sustained)]
-        place = Found(float(shares[panel, k]), combination, panel)
-        found[f"reinforced_{name}"] = hold_against(WORDS[name], place, 1.0)
+        at = Found(float(shares[panel, k]), str(places.combination[panel, k]), panel)
+        check = hold_against(WORDS[name], at, 1.0, mesh_error=errors[name])
+        found[f"reinforced_{name}"] = replace(check, place=str(places.words[panel, k]))
     return found
 
 
@@ -170,7 +179,7 @@ def find_bar_directions(model: ConcreteModel) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _list_columns(
-    model: ConcreteModel, use: PanelUse, cracks: Envelope, shares: np.ndarray, names: list[str]
+    model: ConcreteModel, use: PanelUse, cracks: Envelope, shares: np.ndarray, places: Places
 ) -> dict[str, np.ndarray]:
     """Return the columns of panels: areas of steel, shares, places and combinations."""
     steel, shear = use.steel, use.shear
@@ -184,13 +193,12 @@ def _list_columns(
     found["shear_kn_m"] = shear.size
     found["layers"] = np.where(steel.two_layers, 2, 1)
     found |= {f"use_{name}": shares[:, k] for k, name in enumerate(CHECKS)}
-    which = shares.argmax(axis=1)
+    which, own = shares.argmax(axis=1), np.arange(len(shares))
     found["reinforced_check"] = np.array(CHECKS)[which]
-    most_steel = steel.envelope.value[:, :4].argmax(axis=1)[:, None]
-    row = np.take_along_axis(steel.envelope.row, most_steel, axis=1)[:, 0]
-    found["steel_place"] = np.array([describe_row(model.edge[one]) for one in row])
-    combination = np.take_along_axis(steel.envelope.combination, most_steel, axis=1)[:, 0]
-    found["steel_combination"] = np.array(names)[combination]
+    found["reinforced_place"] = places.words[own, which]
+    found["reinforced_combination"] = places.combination[own, which]
+    found["steel_place"] = places.words[:, CHECKS.index("ratio")]
+    found["steel_combination"] = places.combination[:, CHECKS.index("ratio")]
     for axis, vectors in zip("xy", find_bar_directions(model), strict=True):
         found |= {f"bar_{axis}_{name}": vectors[:, k] for k, name in enumerate("xyz")}
     return found

@@ -10,7 +10,7 @@ class Checks(Group):
     """Engineering verdict, beside that of the paper's criteria."""
 
     strip_width: float = setting(
-        0.3, unit="m", above=0, maximum=100, stages=(*_STAGES, "analyse", "size"),
+        0.3, unit="m", above=0, maximum=100, stages=(*_STAGES, "analyse", "size", "reinforced"),
         meaning="Width of the strips beside folds and borders over which forces and moments are "
         "averaged for the local measure of utilization, also that of sizing.measure: strip.",
     )  # fmt: skip

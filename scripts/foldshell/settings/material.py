@@ -26,7 +26,7 @@ class Material(Group):
         meaning="Strength in tension, which the criteria of Rankine and of Drucker and Prager use.",
     )  # fmt: skip
     kind: str = setting(
-        "concrete", choices=("concrete", "steel", "user"), stages=("size", "study"),
+        "concrete", choices=("concrete", "steel", "user"), stages=("size", "study", "crosscheck"),
         meaning="Which engineering checks hold: of concrete (without steel, tension is limited by "
         "strength_tension), of steel (von Mises), or of a material with the criterion below.",
     )  # fmt: skip

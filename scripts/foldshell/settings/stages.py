@@ -28,6 +28,7 @@ STAGES: dict[str, tuple[type, ...]] = {
     "resize": (Sizing,),
     "size": ANALYSED,
     "crosscheck": (*LOADED, Crosscheck),
+    "reinforced": (Checks, Reinforcement),
     "figures": (Figures,),
     "drawings": (Drawings,),
     "exports": (Exports,),

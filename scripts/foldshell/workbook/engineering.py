@@ -29,7 +29,8 @@ from foldshell.workbook.styles import (
 from foldshell.workbook.tables import Column, write_table
 
 VERDICTS = {"passes": "good", "fails": "bad", "not_applicable": "plain"}
-TEXTS = ("reinforced_check", "steel_place", "steel_combination")
+PLACES = ("reinforced_place", "steel_place")
+TEXTS = ("reinforced_check", "reinforced_combination", "steel_combination", *PLACES)
 """Columns of words beside those of reinforcement."""
 CHECK_COLUMNS = (
     Column("check", "", "wrap", 58.0),
@@ -40,6 +41,7 @@ CHECK_COLUMNS = (
     Column("met", "", "text", 26.0),
     Column("combination", "", "text", 13.0),
     Column("panel", "-", "integer", 8.0),
+    Column("place", "", "wrap", 44.0),
     Column("mesh error", "-", "percent", 10.0),
 )
 REACTION_COLUMNS = (
@@ -89,7 +91,8 @@ def _list_cells(check: EngineeringCheck) -> list[Any]:
     met = {None: NO_LIMIT, True: "yes", False: "no"}[check.met]
     met += ", within mesh error" if check.within_mesh_error else ""
     first = [check.words, check.value, check.limit, check.unit, None, met]
-    return [*first, check.governing_combination, check.panel, check.mesh_error]
+    return [*first, check.governing_combination, check.panel, check.place,
+            check.mesh_error]  # fmt: skip
 
 
 def _write_share(sheet: Any, styles: Styles, row: int, check: EngineeringCheck) -> None:
@@ -123,7 +126,8 @@ def list_panel_columns(record: EngineeringRecord) -> list[tuple[Column, tuple]]:
     found = []
     for name, values in record.panels.items():
         unit, style = _judge_column(name)
-        found.append((Column(name, unit, style, 13.0 if style == "text" else 11.0), values))
+        width = 44.0 if name in PLACES else 13.0 if style == "text" else 11.0
+        found.append((Column(name, unit, style, width), values))
     return found
 
 
@@ -156,7 +160,7 @@ def add_panels(book: Any, styles: Styles, record: EngineeringRecord) -> None:
     columns = list_panel_columns(record)
     rows = list(zip(*(values for _, values in columns), strict=True))
     first = write_table(sheet, styles, 0, [one for one, _ in columns], rows, upright=True)
-    print_in_blocks(sheet, [9.0] * len(columns))
+    print_in_blocks(sheet, [one.width if one.key in PLACES else 9.0 for one, _ in columns])
     write_volume(sheet, styles, first, record, [one.key for one, _ in columns])
 
 

@@ -127,7 +127,7 @@ def _check_keys(data, record, extra=frozenset()):
     """The file holds the fields of the record, those with a default where they say something."""
     names = {said.name or name for name, _, said in list_fields(record)}
     assert set(data) - extra <= names
-    optional = {"reason", "first"}
+    optional = {"reason", "first", "reinforcement"}
     assert names - optional <= set(data)
     for _, _, said in list_fields(record):
         assert said.meaning

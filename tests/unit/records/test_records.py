@@ -42,7 +42,7 @@ ANALYSIS = {
     "edited": False, "counted_from": 0,
 }  # fmt: skip
 UNITS = {"m": "m", "m2": "m2", "m3": "m3", "kn": "kN", "knm": "kNm", "rad": "rad", "deg": "deg",
-         "s": "s", "mb": "MB"}  # fmt: skip
+         "s": "s", "mb": "MB", "kpa": "kPa"}  # fmt: skip
 
 
 def all_records():

@@ -3,7 +3,7 @@
 import pytest
 
 from foldshell.records.mesh_convergence import CombinationStudy, MeshStudy, ReferenceMesh
-from foldshell.results.mesh_convergence import estimate_errors, find_largest_errors
+from foldshell.results.mesh_errors import estimate_errors, find_largest_errors
 
 
 def test_errors_against_the_extrapolated_value_and_buckling_apart():

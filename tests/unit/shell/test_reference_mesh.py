@@ -4,11 +4,7 @@ import numpy as np
 import pytest
 
 from foldshell.results.mean_fold import measure_mean_fold
-from foldshell.results.mesh_convergence import (
-    REFERENCE,
-    SMOOTH_REFERENCE,
-    choose_reference,
-)
+from foldshell.results.mesh_convergence import REFERENCE, SMOOTH_REFERENCE, choose_reference
 from sizing_case import corrugated_sheet
 
 

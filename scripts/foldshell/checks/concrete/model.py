@@ -6,7 +6,7 @@ import numpy as np
 
 from foldshell.checks.concrete.layout import Layout, lay_out
 from foldshell.checks.concrete.sampling import Sampling, sample_strips
-from foldshell.checks.strips import NO_EDGE, find_strips
+from foldshell.checks.strips import find_strips
 from foldshell.settings.reinforcement import Reinforcement
 from foldshell.shell.mesh import ShellMesh
 from foldshell.shell.stiffness import ShellOperators
@@ -49,10 +49,3 @@ def build_concrete_model(
         operators, panels, asked, lay_out(asked), local,
         replace(shear, angle=local.angle), area, strips.edge, wide.edge,
     )  # fmt: skip
-
-
-def describe_row(edge: np.ndarray) -> str:
-    """Say where a row is: a facet as a whole, or the strip along an edge (2,) of vertex numbers."""
-    if edge[0] == NO_EDGE:
-        return "mean of a facet"
-    return f"strip along {edge[0]}-{edge[1]}"

@@ -30,7 +30,7 @@ class PanelShear:
 
     `size` (P,) kN/m largest v_0; `use` (P,) its share of v_Rd,c, of v_Rd,max where links may lie;
     `envelope` its place; `links` (P,) bool; `punching_use` (P,) share at vertices,
-    `vertex` (P,) where.
+    `vertex` (P,) where, `punching_combination` (P,) as a number.
     """
 
     size: np.ndarray
@@ -39,6 +39,7 @@ class PanelShear:
     links: np.ndarray
     punching_use: np.ndarray
     vertex: np.ndarray
+    punching_combination: np.ndarray
 
 
 def find_panel_shear(
@@ -72,8 +73,8 @@ def find_panel_shear(
     links = np.zeros(model.panels, dtype=bool)
     links[panel[needs.any(axis=1)]] = True
     found = find_envelope(panel, np.stack([use, size], axis=-1), model.panels)
-    punching, vertex = _find_punching(model, shear, resultants.force, depth, ratio, steel.thickness)
-    return PanelShear(found.value[:, 1], found.value[:, 0], found, links, punching, vertex)
+    punching = _find_punching(model, shear, resultants.force, depth, ratio, steel.thickness)
+    return PanelShear(found.value[:, 1], found.value[:, 0], found, links, *punching)
 
 
 def effective_depth(steel: PanelSteel, model: ConcreteModel) -> tuple[np.ndarray, np.ndarray]:
@@ -87,7 +88,7 @@ def effective_depth(steel: PanelSteel, model: ConcreteModel) -> tuple[np.ndarray
 
 
 def _find_punching(model: ConcreteModel, shear, force, depth, ratio, thickness):
-    """Return the largest share (P,) at the vertices of each panel, and the vertex (P,)."""
+    """Return the largest share (P,) at the vertices of each panel, vertex and combination (P,)."""
     strengths = model.layout.strengths
     element_depth = np.append(depth, depth.max())[np.minimum(model.mesh.panel, model.panels)]
     found = find_vertex_shear(model.operators, shear, force, PERIMETER * element_depth)
@@ -102,4 +103,4 @@ def _find_punching(model: ConcreteModel, shear, force, depth, ratio, thickness):
     own = found.shear[rows]
     use = np.minimum(own / np.maximum(resistance, own / WORST + 1e-12), WORST).max(axis=1)
     best = find_envelope(panel, use[:, None, None], model.panels)
-    return best.value[:, 0], found.vertex[rows][best.row[:, 0]]
+    return best.value[:, 0], found.vertex[rows][best.row[:, 0]], best.combination[:, 0]
