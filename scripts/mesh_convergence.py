@@ -34,8 +34,8 @@ def main(
     settings: Plain,
 ) -> None:
     """Write mesh_convergence.json and crosscheck/primary.json; the reason for a mechanism."""
-    given, report = read_stage(settings, *MEASURED), read_analysis(report_path)
-    final = read_typed_arrays(final_path, AnalysisArrays)
+    given, final = read_stage(settings, *MEASURED), read_typed_arrays(final_path, AnalysisArrays)
+    report = read_analysis(report_path)
     named = list_compared(given.crosscheck, given.combinations, report, given.loads)
     design = DesignOnMeshes(
         read_checked_arrays(folded_path, FoldedArrays), from_plain(support), final.thickness,

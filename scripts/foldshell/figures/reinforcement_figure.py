@@ -32,7 +32,9 @@ def draw_reinforcement(record: EngineeringRecord, mesh: MeshArrays) -> Figure:
         figure, axes = plt.subplots(2, 2, figsize=(10, 9.6), layout="constrained")
         for axis, (key, words) in zip(axes.ravel(), LAYERS.items(), strict=True):
             shown = _draw_layer(axis, record, mesh, values[key], largest, key[-1])
-            axis.set_title(f"{key}: {words}, up to {values[key].max():.1f} cm²/m", fontsize=12)
+            most = values[key].max()
+            size = f"up to {most:.1f} cm²/m" if most else "none"
+            axis.set_title(f"{key}: {words}, {size}", fontsize=12)
         figure.colorbar(shown, ax=axes, label="steel [cm²/m]", shrink=0.7)
         total = record.reinforcement
         figure.suptitle(
