@@ -67,6 +67,7 @@ for STAGE in [*STAGES, "manifest", "figures", "report", "sheets", "archive", "ex
 
 include: f"{RULES}/{'no_exploration' if SETTINGS.exploration == 'none' else 'explore'}.smk"
 include: f"{RULES}/fold_answer.smk"
+include: f"{RULES}/one_process.smk"
 
 
 for TAG in sorted({tag for design in DESIGNS for tag in design.tags}):

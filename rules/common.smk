@@ -108,10 +108,10 @@ def names_of_tag(tag):
     return check_memory(names)
 
 
-include: "library.smk"
 include: "loop.smk"
 include: "server.smk"
 include: "engine.smk"
+include: "library.smk"
 include: "needs.smk"
 include: "storage.smk"
 include: "inputs.smk"

@@ -64,8 +64,7 @@ def run_in_fork(job, fname):
     if job.conda_env or job.container_img or job.env_modules or job.shadow_dir or not server:
         return None
     log, pool = str(job.log[0]) if job.log else "", POOLS.get(job.rulename, "")
-    end = server.run(fname, pool, job.wildcards.get("design", ""), log)
-    if end is None:
+    if not (end := server.run(fname, pool, job.wildcards.get("design", ""), log)):
         return None
     show_job(log, bool(end.code))
     if job.bench_record:
@@ -76,9 +75,10 @@ def run_in_fork(job, fname):
 def execute_script(self, fname, edit=False):
     """Run a rule's script: in a fork, or as Snakemake would."""
     try:
-        code = None if edit else run_in_fork(self, fname)
-        if code is None:
-            return run_anew(self, fname, edit)
+        with stored_beside(self):
+            code = None if edit else run_in_fork(self, fname)
+            if code is None:
+                return run_anew(self, fname, edit)
         if code:
             raise CalledProcessError(code, f"{sys.executable} {fname}")
     except CalledProcessError as error:

@@ -8,16 +8,24 @@ LISTS_FILE = f"{LIBRARY}/lists.json"
 LISTS = {}  # of library files, by script
 
 
+def listed(path):
+    """Return a list of files as an input: a file of this machine, whatever prefix or storage results
+    have. Its name tells its content; the date says nothing, so that a machine where results in a
+    storage are met for the first time need not make them anew."""
+    if setting_of("storage_settings", "default_storage_provider"):
+        os.utime(path, (0, 0))
+    return local(path)
+
+
 def code_inputs(script):
-    """Return the list of the library files that a rule's script imports, as an input of it: a file
-    of this machine, whatever prefix or storage results have. A job elsewhere takes what its run has
-    found: that takes half of the time to read the rules."""
+    """Return the list of the library files that a rule's script imports, as an input of it. A job
+    elsewhere takes what its run has found: that takes half of the time to read the rules."""
     if script not in LISTS and is_job() and Path(LISTS_FILE).is_file():
         LISTS.update(read_json(LISTS_FILE))
     if script not in LISTS:
         path = f"{SCRIPTS}/{script}.py"
         LISTS[script] = write_library_list(path, SCRIPTS, LIBRARY)
-    return local(LISTS[script])
+    return listed(LISTS[script])
 
 
 def assets():
@@ -25,8 +33,8 @@ def assets():
     are read, not imported."""
     files = [path for path in Path(PAGES).rglob("*") if path.is_file()]
     data = sorted(path for path in files if path.suffix not in (".py", ".pyc"))
-    return local(write_content_list(data, LIBRARY))
+    return listed(write_content_list(data, LIBRARY))
 
 
 # Written before Snakemake looks at what there is.
-CONTENTS = {d.name: [local(write_content_list(d.files, LIBRARY))] for d in DESIGNS if d.files}
+CONTENTS = {d.name: [listed(write_content_list(d.files, LIBRARY))] for d in DESIGNS if d.files}

@@ -60,21 +60,21 @@ def memory_before_last(wildcards):
 
 
 RUN = {"started": False, "studies": []}
-"""Whether jobs run already; `onstart` says so. The studies whose summary is up to date at the end."""
+"""Whether jobs run already (see `onstart`), and the studies whose summary is up to date at the end."""
 
 REPORTING = "--report" in sys.argv
-"""No job will run: the last analysis of a loop stands for all, which makes a study of a thousand
-jobs one of some hundred. Its graph has all rules, but not the way back from analyse to resize."""
+"""No job will run: the last analysis of a loop stands for all, and makes a thousand jobs a hundred.
+The graph has all rules, but not the way back from analyse to resize."""
 
 
 def asks_for_another(file):
     """Tell whether an analysis asks for another one. One that cannot be read does: unknown is not
-    ended, and the job that takes the next step says what is wrong with it. Snakemake gets a file
-    from its storage where its own way to open it finds none."""
-    stored = getattr(file, "is_storage", False)
+    ended, and the job that takes the next step says what is wrong with it."""
     try:
-        with file.open() if stored else Path(file).open(encoding="utf-8") as stream:
-            return json.load(stream)["verdict"] == "continue"
+        if getattr(file, "is_storage", False):
+            with file.open() as stream:
+                return json.load(stream)["verdict"] == "continue"
+        return read_verdict(str(file), os.stat(file).st_mtime_ns) == "continue"
     except (OSError, ValueError, KeyError, TypeError):
         return True
 

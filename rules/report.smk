@@ -4,10 +4,14 @@
 report: "../docs/report/workflow.rst"
 
 
+VERIFICATION = f"{SCRIPTS}/../tests/verification/README.md"
+
+
 rule report_pages:
     input:
         summary=f"{STUDY}/summary.csv",
-        verification=[local(f"{SCRIPTS}/../tests/verification/README.md")],
+        verification=[ancient(local(VERIFICATION))],
+        content=listed(write_content_list([VERIFICATION], LIBRARY)),
         library=code_inputs("report_pages"),
         assets=assets(),
     output:
@@ -69,7 +73,8 @@ rule report:
     input:
         summary=f"{STUDY}/summary.csv",
         tiles=rules.all_designs.output.tiles,
-        verification=local(f"{SCRIPTS}/../tests/verification/README.md"),
+        verification=ancient(local(VERIFICATION)),
+        content=listed(write_content_list([VERIFICATION], LIBRARY)),
         claims=judged_claims,
         reinforced=judged_reinforced,
         fold=answer_of_explorations,

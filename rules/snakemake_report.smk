@@ -12,7 +12,8 @@ rule snakemake_report:
     input:
         report_files,
         library=code_inputs("snakemake_report"),
-        stylesheet=local(f"{PAGES}/snakemake_report.css"),
+        stylesheet=ancient(local(f"{PAGES}/snakemake_report.css")),
+        assets=assets(),
     output:
         report=f"{STUDY}/snakemake_report.html",
     log:

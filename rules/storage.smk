@@ -1,8 +1,13 @@
-# Results in an object storage: whether it answers, before a run and at its end.
+# Results in an object storage: whether it answers, before a run and at its end, and the files that
+# no rule declares, which go there and come from there with those of a job.
 
 import atexit
+import contextlib
+import threading
 
+from foldshell.engine.job import find_home
 from foldshell.engine.storage import describe_silence, find_endpoint
+from foldshell.engine.stored_files import EVERYTHING, RECORDS, WHOLE_LOOP, open_stored, storage_errors
 from foldshell.files.errors import InputError
 
 STORED = setting_of("storage_settings", "default_storage_provider")
@@ -25,3 +30,52 @@ if STORED and not is_job():
         if SILENCE := silence():
             raise InputError(SILENCE)
     atexit.register(say_silence)
+
+
+FETCHED = {"verify": "", "archive_study": "", "timings": "benchmarks"}
+"""Rules that read more than they declare: the folder of it, in the folder of all results."""
+
+
+@functools.cache
+def stored_results():
+    """Return the folder of all results in the storage, None without one."""
+    if STORED != "s3":
+        return None
+    prefix = setting_of("storage_settings", "default_storage_prefix")
+    return open_stored(prefix, RESULTS, place(), find_endpoint(os.environ, sys.argv), os.environ)
+
+
+KNOWN_HERE = set()  # folders of designs and studies, by pattern of what has been fetched
+ONE_BY_ONE = threading.Lock()
+
+
+def fetch_beside(job, folder, name, pattern):
+    """Fetch what a job may read and no rule declares, that of a design or study once a run."""
+    with ONE_BY_ONE, storage_errors(folder):
+        if job.rulename in FETCHED:
+            folder.fetch(FETCHED[job.rulename], EVERYTHING)
+        if name != "." and (name, pattern) not in KNOWN_HERE:
+            folder.fetch(name, pattern)
+            KNOWN_HERE.add((name, pattern))
+
+
+@contextlib.contextmanager
+def stored_beside(job):
+    """Fetch the undeclared files that a job may read, run the block, store those that it leaves."""
+    folder = stored_results()
+    if not folder:
+        yield
+        return
+    home = find_home([str(path) for path in job.output] or [f"{place()}/-"], job.wildcards)
+    name = str(home.relative_to(place()))
+    pattern = WHOLE_LOOP if job.rulename == "size" and CHOICE == "whole" else RECORDS
+    try:
+        fetch_beside(job, folder, name, pattern)
+        try:
+            yield
+        finally:
+            with storage_errors(folder):
+                if name != ".":
+                    folder.store(name, pattern)
+    except InputError as error:
+        raise WorkflowError(str(error)) from None

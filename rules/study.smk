@@ -60,7 +60,7 @@ rule timings:
     conda:
         "../envs/foldshell.yaml"
     params:
-        folder=f"{RESULTS}/benchmarks",
+        folder=lambda wildcards: f"{place()}/benchmarks",
     message:
         "time of each rule"
     script:

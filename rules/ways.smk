@@ -22,12 +22,25 @@ def choose_loop():
     return os.environ[CHOSEN]
 
 
-def find_analysis(**wildcards):
-    """Return the analysis.json of an iteration where Snakemake knows that it is made, else None."""
-    try:
-        return checkpoints.analyse.get(**wildcards).output.json
-    except IncompleteCheckpointException:
-        return None
+MADE = {}  # analysis.json by design and iteration
+
+
+def find_analysis(design, iteration):
+    """Return the analysis.json of an iteration where Snakemake knows that it is made, else None. It
+    compares with all outputs that it knows each time, and none of them is ever forgotten."""
+    if (design, iteration) not in MADE:
+        try:
+            found = checkpoints.analyse.get(design=design, iteration=iteration)
+        except IncompleteCheckpointException:
+            return None
+        MADE[design, iteration] = found.output.json
+    return MADE[design, iteration]
+
+
+@functools.cache
+def read_verdict(path, _changed):
+    """Return the verdict of an analysis as it stands since some time."""
+    return read_json(path)["verdict"]
 
 
 CHOICE = choose_loop()

@@ -17,7 +17,7 @@ def edited_workbooks(wildcards):
     content, so that a loop runs again when one is edited or put back."""
     folder = Path(f"{place()}/{wildcards.design}/sizing")
     edited = [path for path in sorted(folder.glob("[0-9][0-9]/thickness.xlsx")) if is_edited(path)]
-    return local(write_content_list(edited, LIBRARY))
+    return listed(write_content_list(edited, LIBRARY))
 
 
 rule size:

@@ -1,5 +1,6 @@
 """Results in an S3 server of this machine: stopped, gone on with, and a server that goes away."""
 
+import hashlib
 import os
 import shutil
 import signal
@@ -10,6 +11,7 @@ import threading
 import time
 from pathlib import Path
 
+import openpyxl
 import pytest
 
 REPOSITORY = Path(__file__).parents[2]
@@ -28,6 +30,7 @@ pytestmark = [
     ),
 ]
 KEY = {"SNAKEMAKE_STORAGE_S3_ACCESS_KEY": "test", "SNAKEMAKE_STORAGE_S3_SECRET_KEY": "test"}
+TARGETS = (TARGET, *(f"results/tiny-{name}/manifest.json" for name in ("dome", "saddle", "arch")))
 THREE = f"{DESIGNS}tiny-arch\tarch\t8\t2\t5\t6\tall\ttiny\n"
 
 
@@ -119,24 +122,91 @@ def copies(folder, prefix):
     return folder / f".snakemake/storage/s3/shells/{prefix}"
 
 
-def test_three_designs_stopped_and_gone_on_with(server, code, tmp_path):
-    """The files are those of a run without a storage."""
+@pytest.fixture(scope="module")
+def here(code, tmp_path_factory):
+    """Return the results {name: SHA-256} of a run without a storage, less what is local."""
+    folder = make_study(tmp_path_factory.mktemp("here"), THREE)
+    done = run(code, folder, *TARGETS)
+    assert done.returncode == 0, done.stderr[-3000:]
+    return {name: digest for name, digest in results(folder).items() if is_of_study(name)}
+
+
+def is_of_study(name):
+    """Tell whether a result is no copy that is left at the end of a run, and no mark of a table."""
+    return name.count("/") > 1
+
+
+def fetch_bucket(server, prefix, folder):
+    """Fetch the objects below a prefix into a folder."""
+    keys = {"aws_access_key_id": "test", "aws_secret_access_key": "test"}
     url = f"http://127.0.0.1:{server}"
-    folder = make_study(tmp_path / "stored", THREE)
-    process = begin(code, folder, url, "three", TARGET)
-    wait_for(copies(folder, "three") / "results/tiny-dome/sizing/01/thickness.xlsx", process)
+    client = boto3.client("s3", endpoint_url=url, region_name="us-east-1", **keys)
+    for page in client.get_paginator("list_objects_v2").paginate(Bucket="shells", Prefix=prefix):
+        for one in page["Contents"]:
+            path = folder / one["Key"].removeprefix(f"{prefix}/")
+            path.parent.mkdir(parents=True, exist_ok=True)
+            client.download_file("shells", one["Key"], str(path))
+    return folder
+
+
+def finish(code, folder, server, prefix, *arguments):
+    """Run to the end; return what was said."""
+    url = f"http://127.0.0.1:{server}"
+    assert begin(code, folder, url, prefix, *arguments).wait() == 0, said(folder)[-3000:]
+    return said(folder)
+
+
+@pytest.mark.parametrize("loop", ["steps", "whole"])
+def test_three_designs_stopped_and_gone_on_with_by_a_new_machine(
+    server, code, here, tmp_path, loop
+):
+    """It has the bucket alone: what is stored is what a run without a storage leaves, records of
+    jobs and every iteration, and nothing is to be done again."""
+    options = *TARGETS, "--config", f"loop={loop}"
+    first = make_study(tmp_path / "first", THREE)
+    process = begin(code, first, f"http://127.0.0.1:{server}", loop, *options)
+    waits = {"steps": "tiny-dome/sizing/01/thickness.xlsx", "whole": "tiny-arch/design.vtu"}
+    wait_for(copies(first, loop) / "results" / waits[loop], process)
     os.killpg(process.pid, signal.SIGKILL)
     process.wait()
-    shutil.rmtree(folder / ".snakemake/locks", ignore_errors=True)
-    assert begin(code, folder, url, "three", TARGET).wait() == 0, said(folder)[-3000:]
-    assert begin(code, folder, url, "three", TARGET).wait() == 0
-    assert "Nothing to be done" in said(folder)
-    here = make_study(tmp_path / "here", THREE)
-    assert run(code, here, TARGET).returncode == 0
-    own = {name: digest for name, digest in results(here).items() if "copies.json" not in name}
-    stored = results(copies(folder, "three"))
-    shared = own.keys() & stored.keys()
-    assert len(shared) > 100 and {n: own[n] for n in shared} == {n: stored[n] for n in shared}
+    begun = results(fetch_bucket(server, loop, tmp_path / "begun"))
+    second = make_study(tmp_path / "second", THREE)
+    assert "Nothing to be done" not in finish(code, second, server, loop, *options)
+    stored = results(fetch_bucket(server, loop, tmp_path / "bucket"))
+    assert {name: digest for name, digest in stored.items() if is_of_study(name)} == here
+    assert begun.items() <= stored.items() and "results/tiny-arch/jobs/mesh.json" in begun
+    third = make_study(tmp_path / "third", THREE)
+    for folder in (second, third):
+        assert "Nothing to be done" in finish(code, folder, server, loop, *options)
+    assert "every file is as it was made" in finish(code, third, server, loop, "verify")
+
+
+def test_a_hand_edit_of_a_copy_is_stored_and_redoes_what_follows(server, code, tmp_path):
+    """Of a loop in one job, on a machine that has fetched what is there by `verify`."""
+    options = TARGET, "--config", "loop=whole"
+    one = DESIGNS.splitlines(keepends=True)[0]
+    first, second = (make_study(tmp_path / name, one) for name in ("first", "second"))
+    finish(code, first, server, "edited", *options)
+    finish(code, second, server, "edited", "verify")
+    path = copies(second, "edited") / "results/tiny-dome/sizing/01/thickness.xlsx"
+    book = openpyxl.load_workbook(path)
+    book["thickness"]["D5"].value = 0.123
+    book.save(path)
+    edited = hashlib.sha256(path.read_bytes()).hexdigest()
+    finish(code, second, server, "edited", *options)
+    stored = results(fetch_bucket(server, "edited", tmp_path / "bucket"))
+    assert stored["results/tiny-dome/sizing/01/thickness.xlsx"] == edited
+    assert "Nothing to be done" in finish(code, second, server, "edited", *options)
+
+
+def test_the_demo(server, code, tmp_path):
+    """From the project's own table; a second run has nothing to do."""
+    folder = tmp_path / "demo"
+    shutil.copytree(REPOSITORY / "config", folder / "config")
+    finish(code, folder, server, "demo", "demo")
+    stored = results(fetch_bucket(server, "demo", tmp_path / "bucket"))
+    assert any(name.endswith("/page.html") for name in stored)
+    assert "Nothing to be done" in finish(code, folder, server, "demo", "demo")
 
 
 def test_a_server_that_goes_away(server, code, tmp_path):

@@ -102,12 +102,14 @@ def sentences(said):
 
 
 def test_files_are_those_of_this_machine_and_submissions_few(slurm, code, here, tmp_path):
-    """Two for each design and one for the study."""
+    """Two for each design and one for the study, each with one Snakemake for all its rules."""
     before = count_submissions(slurm)
     folder = make_study(tmp_path / "study")
-    code_, said = finish(submit(code, folder))
+    code_, said = finish(submit(code, folder, "--slurm-keep-successful-logs"))
     assert code_ == 0, said[-3000:]
     assert count_submissions(slurm) - before == 2 * 2 + 1
+    logs = [path.read_text() for path in (folder / ".snakemake/slurm_logs").rglob("*.log")]
+    assert [log.count("Snakemake version") for log in logs] == [1] * 5
     assert results(folder) == results(here)
     code_, said = finish(submit(code, folder))
     assert code_ == 0 and "Nothing to be done" in said

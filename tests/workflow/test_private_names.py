@@ -37,6 +37,10 @@ def rank_of(job):
 def begin_run():
     print("handler:", terminal_handler())
 
+def stored_beside(job):
+    import contextlib
+    return contextlib.nullcontext()
+
 def show_job(log, failed):
     from foldshell.engine.job_end import show_log
     show_log(log)
