@@ -1,5 +1,7 @@
 # Inputs: what of the library, and of the files beside it, a rule's script is made of.
 
+from snakemake.io import sourcecache_entry
+
 from foldshell.engine.imports import write_library_list
 from foldshell.files.whole import read_json, write_json
 
@@ -11,10 +13,13 @@ LISTS = {}  # of library files, by script
 def listed(path):
     """Return a list of files as an input: a file of this machine, whatever prefix or storage results
     have. Its name tells its content; the date says nothing, so that a machine where results in a
-    storage are met for the first time need not make them anew."""
-    if setting_of("storage_settings", "default_storage_provider"):
-        os.utime(path, (0, 0))
-    return local(path)
+    storage are met for the first time need not make them anew. Where machines share no files each
+    has its own: a job with a `local` input would run where Snakemake does, and so would its group."""
+    if not setting_of("storage_settings", "default_storage_provider"):
+        return local(path)
+    os.utime(path, (0, 0))
+    shared = {str(kind) for kind in setting_of("storage_settings", "shared_fs_usage")}
+    return local(path) if "input-output" in shared else sourcecache_entry(path, path)
 
 
 def code_inputs(script):

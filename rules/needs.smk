@@ -15,8 +15,8 @@ from foldshell.engine.minutes import estimate_minutes
 
 # For jobs that run and for processes that wait; elsewhere a cluster knows what there is.
 MEMORY = share_memory(find_free_memory() if runs_here() else None)
-SNAKEMAKE_MB = 0 if runs_here() else 400
-"""Of a cluster's job: the processes of Snakemake that start the script."""
+SNAKEMAKE_MB = 0 if runs_here() else 500
+"""Of a cluster's job: the processes of Snakemake, and that whose forks run scripts."""
 
 
 @functools.cache

@@ -7,9 +7,11 @@ SERVERS = []  # the one, once the first job may start
 
 
 def start_server(modules):
-    """Start the process whose forks run scripts, where there is one: not beside a cluster."""
-    if SETTINGS.jobs.fork and AVAILABLE and runs_here():
-        kept = MEMORY[1], setting_of("resource_settings", "cores") or None
+    """Start the process whose forks run scripts, where there is one: not beside a cluster. In a job
+    of a cluster no fork waits for another script: what it holds counts as memory of the job."""
+    here = runs_here()
+    if SETTINGS.jobs.fork and AVAILABLE and (here or is_job()):
+        kept = (MEMORY[1], setting_of("resource_settings", "cores") or None) if here else (0, 0)
         SERVERS.append(ForkServer(SCRIPTS, modules, os.environ | ONE_THREAD, *kept))
 
 

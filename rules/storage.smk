@@ -7,7 +7,8 @@ import threading
 
 from foldshell.engine.job import find_home
 from foldshell.engine.storage import describe_silence, find_endpoint
-from foldshell.engine.stored_files import EVERYTHING, RECORDS, WHOLE_LOOP, open_stored, storage_errors
+from foldshell.engine.stored_files import EVERYTHING, ITERATIONS, OF_ITERATIONS, RECORDS
+from foldshell.engine.stored_files import WHOLE_LOOP, open_stored, storage_errors
 from foldshell.files.errors import InputError
 
 STORED = setting_of("storage_settings", "default_storage_provider")
@@ -32,8 +33,13 @@ if STORED and not is_job():
     atexit.register(say_silence)
 
 
-FETCHED = {"verify": "", "archive_study": "", "timings": "benchmarks"}
-"""Rules that read more than they declare: the folder of it, in the folder of all results."""
+FETCHED = {
+    "verify": ("", EVERYTHING),
+    "archive_study": ("", EVERYTHING),
+    "timings": ("benchmarks", EVERYTHING),
+    "summary": ("", ITERATIONS),
+}
+"""Rules that read more of the folder of all results than they declare."""
 
 
 @functools.cache
@@ -49,11 +55,14 @@ KNOWN_HERE = set()  # folders of designs and studies, by pattern of what has bee
 ONE_BY_ONE = threading.Lock()
 
 
-def fetch_beside(job, folder, name, pattern):
-    """Fetch what a job may read and no rule declares, that of a design or study once a run."""
+def fetch_beside(job, folder, name):
+    """Fetch what a job may read and no rule declares, that of a design or study once a run: of a
+    loop what the pages and workbooks after it show, and what a loop in one job goes on from."""
+    loop = job.rulename not in ("pattern", "fold", "mesh", "start", "analyse", "resize")
+    pattern = WHOLE_LOOP if loop else RECORDS
     with ONE_BY_ONE, storage_errors(folder):
         if job.rulename in FETCHED:
-            folder.fetch(FETCHED[job.rulename], EVERYTHING)
+            folder.fetch(*FETCHED[job.rulename])
         if name != "." and (name, pattern) not in KNOWN_HERE:
             folder.fetch(name, pattern)
             KNOWN_HERE.add((name, pattern))
@@ -70,12 +79,15 @@ def stored_beside(job):
     name = str(home.relative_to(place()))
     pattern = WHOLE_LOOP if job.rulename == "size" and CHOICE == "whole" else RECORDS
     try:
-        fetch_beside(job, folder, name, pattern)
+        fetch_beside(job, folder, name)
         try:
             yield
         finally:
             with storage_errors(folder):
                 if name != ".":
                     folder.store(name, pattern)
+        if job.rulename == "size":
+            with storage_errors(folder):
+                folder.take_away(name, OF_ITERATIONS)
     except InputError as error:
         raise WorkflowError(str(error)) from None

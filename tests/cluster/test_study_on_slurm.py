@@ -55,7 +55,7 @@ def here(tmp_path_factory):
 
 
 def what_counts(folder):
-    """Return the results {name: SHA-256}, less times of jobs and copies that are left at the end."""
+    """Return the results {name: SHA-256}, less times and the copies that are left at the end."""
     left_out = ("timings.csv", "copies.json")
     return {
         name: digest

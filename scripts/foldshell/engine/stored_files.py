@@ -17,11 +17,17 @@ from foldshell.files.errors import InputError
 from foldshell.files.libraries import need_library
 from foldshell.files.whole import atomic_path
 
-RECORDS = r"(.+/)?jobs/[^/.]+\.json|(.+/)?seconds\.json|sizing/\d\d/edited-[^/]+"
+RECORDS = (
+    r"(.+/)?jobs/[^/.]+\.json|(.+/)?seconds\.json|sizing/(\d\d/edited-|superseded/)[^/.]+[^/]*"
+)
 """Paths in the folder of a design or study that no rule declares."""
 WHOLE_LOOP = RECORDS + r"|sizing/\d\d/[^/.][^/]*"
 """The same where a loop is one job."""
 EVERYTHING = r"(?s:.*)"
+ITERATIONS = r"[^/]+/sizing/\d\d/(analysis|written)\.json"
+"""In the folder of all results: what a summary says of edits."""
+OF_ITERATIONS = r"sizing/\d\d/.+|jobs/(analyse|resize)-\d\d\.json"
+"""In the folder of a design: what the end of a loop takes away of iterations that are left over."""
 VARIABLES = {
     "region_name": "REGION",
     "aws_access_key_id": "ACCESS_KEY",
@@ -91,6 +97,18 @@ class StoredFolder:
                 self.client.upload_file(str(path), self.bucket, self._join(folder, name))
                 stored.append(name)
         return stored
+
+    def take_away(self, folder: str, pattern: str) -> list[str]:
+        """Remove objects of a folder that are not here; return their names in the folder, which
+        match the pattern whole."""
+        gone = [
+            name
+            for name, _ in self._list(folder)
+            if re.fullmatch(pattern, name) and not (self.local / folder / name).exists()
+        ]
+        for name in gone:
+            self.client.delete_object(Bucket=self.bucket, Key=self._join(folder, name))
+        return gone
 
     def _list(self, folder: str) -> Iterator[tuple[str, StoredFile]]:
         prefix = f"{self._join(folder)}/"

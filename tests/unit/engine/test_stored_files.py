@@ -6,7 +6,13 @@ from datetime import UTC, datetime, timedelta
 
 import pytest
 
-from foldshell.engine.stored_files import EVERYTHING, RECORDS, WHOLE_LOOP, StoredFolder
+from foldshell.engine.stored_files import (
+    EVERYTHING,
+    OF_ITERATIONS,
+    RECORDS,
+    WHOLE_LOOP,
+    StoredFolder,
+)
 
 NOW = datetime.now(UTC)
 
@@ -33,6 +39,9 @@ class Client:
     def download_file(self, bucket, key, path):
         with open(path, "wb") as stream:
             stream.write(self.objects[key][0])
+
+    def delete_object(self, Bucket, Key):
+        del self.objects[Key]
 
     def upload_file(self, path, bucket, key):
         with open(path, "rb") as stream:
@@ -78,6 +87,20 @@ def test_a_new_machine_has_what_was_stored(folder, tmp_path):
     assert other.fetch("", EVERYTHING) == ["dome/sizing/00/analysis.json", "other/jobs/mesh.json"]
     assert other.fetch("", EVERYTHING) == []
     assert (other.local / "dome/sizing/00/analysis.json").read_bytes() == b"first"
+
+
+def test_iterations_that_are_left_over_go(folder):
+    names = [
+        "sizing/00/thickness.xlsx",
+        "sizing/03/memory.npz",
+        "jobs/analyse-03.json",
+        "page.html",
+    ]
+    for name in names:
+        folder.client.objects[f"mine/results/dome/{name}"] = b"old", NOW
+    folder.fetch("dome", r"sizing/00/.*")
+    assert folder.take_away("dome", OF_ITERATIONS) == ["jobs/analyse-03.json", names[1]]
+    assert len(folder.client.objects) == 2 and folder.take_away("dome", OF_ITERATIONS) == []
 
 
 @pytest.mark.parametrize(("later", "kept"), [(-60, b"mine"), (60, b"theirs")])
