@@ -107,6 +107,39 @@ def begin(code, folder, url, prefix, *arguments):
         return subprocess.Popen(program, cwd=folder, env=own, **streams)
 
 
+WHERE = """
+import sys
+import snakemake.jobs as jobs
+from snakemake.cli import main
+from snakemake.io import is_flagged
+
+write = jobs.Job.log_info
+
+def log_info(job, *arguments, **more):
+    kept = any(is_flagged(file, "local") for file in [*job.input, *job.output])
+    print("place:", "here" if kept else "elsewhere", job.rule.name, flush=True)
+    return write(job, *arguments, **more)
+
+jobs.Job.log_info = log_info
+main(sys.argv[1:])
+"""
+"""A dry run runs no job; where it would, Snakemake tells by flags of its files (Job.is_local)."""
+
+
+def test_no_input_keeps_a_job_here_where_no_files_are_shared(server, code, tmp_path):
+    """As in Kubernetes; only what reads files of this machine stays: designs that name some."""
+    folder = make_study(tmp_path / "study", DESIGNS.splitlines(keepends=True)[0])
+    program = [sys.executable, "-c", WHERE, "-s", str(code / "Snakefile"), "-n", TARGET]
+    program += ["--workflow-profile", str(code / "profiles/s3"), "--shared-fs-usage", "none"]
+    program += ["--cores", "2", "--default-storage-prefix", "s3://shells/nowhere"]
+    own = KEY | {"SNAKEMAKE_STORAGE_S3_ENDPOINT_URL": f"http://127.0.0.1:{server}"}
+    done = subprocess.run(
+        program, cwd=folder, env=os.environ | own, capture_output=True, text=True, check=True
+    )
+    places = [line.split()[1] for line in done.stdout.splitlines() if line.startswith("place:")]
+    assert len(places) > 8 and set(places) == {"elsewhere"}, done.stdout
+
+
 def said(folder):
     return (folder / "run.log").read_text()
 
