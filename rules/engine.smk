@@ -79,8 +79,8 @@ def execute_script(self, fname, edit=False):
             code = None if edit else run_in_fork(self, fname)
             if code is None:
                 return run_anew(self, fname, edit)
-        if code:
-            raise CalledProcessError(code, f"{sys.executable} {fname}")
+            if code:
+                raise CalledProcessError(code, f"{sys.executable} {fname}")
     except CalledProcessError as error:
         sentence = describe_end(self.rulename, dict(self.wildcards.items()), error.returncode)
         raise WorkflowError(sentence) if sentence else error

@@ -10,6 +10,7 @@ from foldshell.engine.storage import describe_silence, find_endpoint
 from foldshell.engine.stored_files import EVERYTHING, ITERATIONS, OF_ITERATIONS, RECORDS
 from foldshell.engine.stored_files import WHOLE_LOOP, open_stored, storage_errors
 from foldshell.files.errors import InputError
+from foldshell.files.job_record import list_outputs
 
 STORED = setting_of("storage_settings", "default_storage_provider")
 
@@ -70,22 +71,26 @@ def fetch_beside(job, folder, name):
 
 @contextlib.contextmanager
 def stored_beside(job):
-    """Fetch the undeclared files that a job may read, run the block, store those that it leaves."""
+    """Fetch the undeclared files that a job may read, run the block, store those that it leaves, and
+    before the first of a job's outputs, which others wait for, all others."""
     folder = stored_results()
     if not folder:
         yield
         return
-    home = find_home([str(path) for path in job.output] or [f"{place()}/-"], job.wildcards)
+    outputs = [str(path) for path in job.output]
+    home = find_home(outputs or [f"{place()}/-"], job.wildcards)
     name = str(home.relative_to(place()))
     pattern = WHOLE_LOOP if job.rulename == "size" and CHOICE == "whole" else RECORDS
+    others = ()
     try:
         fetch_beside(job, folder, name)
         try:
             yield
+            others = {path.relative_to(home).as_posix() for path in list_outputs(outputs[1:])}
         finally:
-            with storage_errors(folder):
-                if name != ".":
-                    folder.store(name, pattern)
+            if name != ".":
+                with storage_errors(folder):
+                    folder.store(name, pattern, others)
         if job.rulename == "size":
             with storage_errors(folder):
                 folder.take_away(name, OF_ITERATIONS)

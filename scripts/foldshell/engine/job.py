@@ -10,7 +10,7 @@ from foldshell.files.job_record import JobRecord, hash_inputs, list_outputs, sta
 from foldshell.files.threads import use_threads
 from foldshell.files.whole import SECONDS, hash_data, hash_file, held_back
 
-LISTS = ".snakemake/"
+LISTS = ".snakemake/library/"
 """Where lists of hashes stand that Snakemake takes for inputs."""
 GATHERED = ("studies", "explorations")
 """Folders whose folders gather what is about several designs."""

@@ -6,7 +6,7 @@ import hashlib
 import os
 import posixpath
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from datetime import datetime
 from pathlib import Path
@@ -85,13 +85,13 @@ class StoredFolder:
                 fetched.append(name)
         return fetched
 
-    def store(self, folder: str, pattern: str) -> list[str]:
+    def store(self, folder: str, pattern: str, more: Iterable[str] = ()) -> list[str]:
         """Store files of a folder that are not there, or are others there; return their names in
-        the folder, which match the pattern whole."""
+        the folder, which match the pattern whole or are among `more`."""
         there, stored = dict(self._list(folder)), []
         for path in sorted((self.local / folder).rglob("*")):
             name = path.relative_to(self.local / folder).as_posix()
-            if not re.fullmatch(pattern, name) or not path.is_file():
+            if not (re.fullmatch(pattern, name) or name in more) or not path.is_file():
                 continue
             if name not in there or not there[name].is_like(path):
                 self.client.upload_file(str(path), self.bucket, self._join(folder, name))
