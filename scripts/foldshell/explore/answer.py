@@ -68,6 +68,10 @@ class Searched:
         kept = [p for p in self.points if p.kind == kind and (p.feasible or kind != FOUND)]
         return sorted(kept, key=lambda point: (point.volume, point.name))
 
+    def lightest(self, factor: float) -> Point | None:
+        """Return the lightest found design with at least a buckling factor."""
+        return next((point for point in self.of(FOUND) if point.factor >= factor), None)
+
     def point_of(self, design: str) -> Point | None:
         """Return the point of a design whose name ends in that of a candidate."""
         return next((point for point in self.points if design.endswith(point.name)), None)

@@ -16,7 +16,10 @@ RULE = (
     "be another one."
 )
 CONFIRMED = "The best of each search by its own rule, searched and confirmed:"
-FACTORS = "Sized for other factors on the mesh of the search (factor reached in brackets):"
+FACTORS = (
+    "On the mesh of the search (factor reached in brackets): the lightest of all patterns that "
+    "were tried, by the rule of the search, and the three shells sized anew for each factor:"
+)
 STEEL = (
     "The same shells sized for reinforced concrete by the settings of `config/reinforced.yaml` "
     "(buckling factor of at least 6 under the loop's combinations); the verdict has combinations "

@@ -101,13 +101,15 @@ def tabulate_geometry(searched: Sequence[Searched]) -> list[str]:
 
 def tabulate_factors(searched: Sequence[Searched]) -> list[str]:
     """Return the concrete of each shell by the buckling factor that it was sized for."""
-    header = ["roof", "factor of at least", *(f"{WORDS[kind]} [m³]" for kind in KINDS)]
+    header = ["roof", "factor of at least", "lightest that was tried [m³]",
+              *(f"{WORDS[kind]} [m³]" for kind in KINDS)]  # fmt: skip
     rows = []
     for one in searched:
         for factor in sorted({row.factor_due for row in one.resized}):
-            cells = [one.resized_for(kind, factor) for kind in KINDS]
+            tried, cells = one.lightest(factor), [one.resized_for(kind, factor) for kind in KINDS]
             rows.append([
-                one.title, f"{factor:g}",
+                one.title, f"{factor:g}", f"{say(tried.volume)} ({say(tried.factor)})" if tried
+                else "none",
                 *(f"{say(row.volume_m3)} ({say(row.buckling_factor_min)})" if row else "not kept"
                   for row in cells),
             ])  # fmt: skip

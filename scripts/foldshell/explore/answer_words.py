@@ -2,9 +2,9 @@
 
 from collections.abc import Callable, Iterator, Sequence
 
-from foldshell.explore.answer import Searched, choose_point
+from foldshell.explore.answer import Point, Searched, choose_point
 from foldshell.explore.bounds import AT_BOUND
-from foldshell.records.rivals import FOUND, SMOOTH, TABLE, JudgedRow
+from foldshell.records.rivals import FOUND, SMOOTH, TABLE, JudgedRow, ResizedRow
 
 NAMES = {"found": "the found pattern", "table": "the row of the table that is the base",
          "smooth": "the smooth shell"}  # fmt: skip
@@ -114,19 +114,27 @@ def list_factors_won(searched: Sequence[Searched]) -> list[str]:
     for one in searched:
         words: dict[str, list[str]] = {}
         for factor in sorted({row.factor_due for row in one.resized}):
-            found, smooth = (one.resized_for(kind, factor) for kind in (FOUND, SMOOTH))
-            words.setdefault(_name_winner(found, smooth), []).append(f"{factor:g}")
+            found = [one.lightest(factor), one.resized_for(FOUND, factor)]
+            volumes = [find_volume(row) for row in found if row]
+            smooth = one.resized_for(SMOOTH, factor)
+            winner = _name_winner(min(volumes, default=None), smooth and smooth.volume_m3)
+            words.setdefault(winner, []).append(f"{factor:g}")
         if words:
             parts = [f"{winner} at a factor of {', '.join(f)}" for winner, f in words.items()]
             lines.append(f"- {one.title}: {'; '.join(parts)}.")
     return lines
 
 
-def _name_winner(found, smooth) -> str:
+def find_volume(row: Point | ResizedRow) -> float:
+    """Return the concrete (m3) of a design that was tried, or of one that was sized anew."""
+    return row.volume if isinstance(row, Point) else row.volume_m3
+
+
+def _name_winner(found: float | None, smooth: float | None) -> str:
     if not (found and smooth):
         kept = "the found pattern" if found else "the smooth shell" if smooth else "neither"
         return f"only {kept} keeps its factor" if found or smooth else "neither keeps its factor"
-    ratio = found.volume_m3 / smooth.volume_m3
+    ratio = found / smooth
     if abs(ratio - 1) <= ALIKE:
         return "both are alike"
     winner = "the fold is lighter" if ratio < 1 else "the smooth shell is lighter"
