@@ -6,6 +6,7 @@ from foldshell.settings.exploration_check import settle_exploration
 from foldshell.settings.exploration_file import read_exploration
 from foldshell.settings.stages import search_parameters
 from foldshell.settings.study import NO_EXPLORATION
+from foldshell.explore.alike import size_alike
 from foldshell.explore.names import list_references, name_candidate
 
 
@@ -43,10 +44,6 @@ def earlier(wildcards):
 
 # By what rivals are sized: the paper's measure by the rule that keeps a factor, and with steel.
 MEASURES = {
-    "paper": {
-        "rule": "optimality",
-        "measure": "panel_mean",
-        "thinning_buckling_factor_min": EXPLORATION.limits.buckling_factor_min,
-    },
+    "paper": size_alike(EXPLORATION.limits.buckling_factor_min),
     "reinforced": read_config(f"{HOME}/config/reinforced.yaml")["sizing"],
 }

@@ -9,7 +9,7 @@ from typing import TypeVar
 
 from foldshell.files.errors import InputError
 from foldshell.files.whole import read_json
-from foldshell.records.rivals import FOUND, SMOOTH, TABLE, JudgedRow, ResizedRow, name_kind
+from foldshell.records.rivals import FOUND, KEPT, SMOOTH, TABLE, JudgedRow, ResizedRow, name_kind
 from foldshell.records.summary import SummaryRow
 from foldshell.records.table import read_rows
 from foldshell.settings.field import Plain
@@ -86,7 +86,7 @@ class Searched:
         return [
             row for row in self.resized
             if row.kind == kind and row.state == "sized" and row.volume_m3
-            and (row.buckling_factor_min is None or row.buckling_factor_min > 0.99 * row.factor_due)
+            and (row.buckling_factor_min is None or row.buckling_factor_min > KEPT * row.factor_due)
         ]  # fmt: skip
 
     def resized_for(self, kind: str, factor: float) -> ResizedRow | None:
@@ -175,7 +175,7 @@ def list_found(searched: Sequence[Searched]) -> list[str]:
         for one in searched
         for row in one.confirmed
         if row.state in ("converged", "at_minimum_thickness") and row.crosscheck == "pass"
-        and (row.buckling_factor_min or float("inf")) > 0.99 * _least_factor(one)
+        and (row.buckling_factor_min or float("inf")) > KEPT * _least_factor(one)
     ]  # fmt: skip
 
 

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
+from foldshell.explore.alike import MEASURE, RULE, size_alike
 from foldshell.explore.bounds import list_bounds
 from foldshell.explore.evaluate import evaluate
 from foldshell.explore.fronts import rank_by
@@ -13,8 +14,6 @@ from foldshell.settings.exploration import PAPER, Exploration
 from foldshell.settings.field import Plain
 from foldshell.settings.stage import StageSettings
 
-RULE = "optimality"
-"""All shells are compared by the one rule that keeps a buckling factor while it takes away."""
 COUNTS = ("zigzag", "strip")
 FACTORS = (6.0, 12.0)
 """Buckling factors that shells are sized for, besides the limit of the search."""
@@ -87,7 +86,7 @@ def resize(
 
 def _keeps(known: CandidateRecord | None, factor: float) -> bool:
     sized = known is not None and known.state == "sized"
-    return sized and (known.buckling_factor_min or 0.0) >= factor
+    return sized and (known.buckling_factor_min or 0.0) >= size_alike(factor)["buckling_factor_min"]
 
 
 def _size_for(
@@ -97,7 +96,8 @@ def _size_for(
         exploration,
         aims=("volume_m3",),
         limits=exploration.limits.changed(buckling_factor_min=factor, verdicts=PAPER),
-        search=exploration.search.changed(rule=RULE, measure="panel_mean"),
+        search=exploration.search.changed(rule=RULE, measure=MEASURE),
     )
     row = {**rival.columns, "design": rival.candidate}
-    return evaluate(rival.candidate, row, settings, given)
+    sizing = settings.sizing.changed(**size_alike(factor))
+    return evaluate(rival.candidate, row, settings.changed(sizing), given)

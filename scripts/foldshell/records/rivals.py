@@ -4,6 +4,8 @@ from dataclasses import dataclass
 
 from foldshell.records.entry import COUNT, entry
 
+KEPT = 0.99
+"""Share of a buckling factor that is due from which it counts as kept: the rule ends beside it."""
 FOUND, TABLE, SMOOTH = "found", "table", "smooth"
 
 

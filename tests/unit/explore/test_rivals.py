@@ -8,6 +8,8 @@ from foldshell.explore import rivals
 from foldshell.explore.rivals import choose_rivals, describe_exploration, list_factors, resize
 from foldshell.records.candidate import CandidateRecord
 from foldshell.settings.exploration import Exploration, Search, SearchLimits, Variable
+from foldshell.settings.sizing import Sizing
+from foldshell.settings.stage import read_stage
 
 BASE = {"pattern": "miura", "surface": "arch", "support": "strip", "zigzag": 15, "strip": 16,
         "edge_beam_depth_m": 0.0, "rest_fold_angle_deg": 0.0}  # fmt: skip
@@ -65,12 +67,13 @@ def test_every_shell_is_sized_by_one_rule_for_one_factor(monkeypatch):
     def evaluate(name, row, settings, exploration):
         factor = exploration.limits.buckling_factor_min
         asked.append((name, factor, exploration.search.rule))
+        assert settings.sizing.buckling_factor_min == pytest.approx(0.99 * factor)
         kept = 8.0 if name == "00-03" else factor
         state = "not_converged" if name == "00-00" else "sized"
         return replace(make_record(name, 10 * factor), buckling_factor_min=kept, state=state)
 
     monkeypatch.setattr(rivals, "evaluate", evaluate)
-    rows = resize(EXPLORATION, RECORDS, None)
+    rows = resize(EXPLORATION, RECORDS, read_stage({"sizing": {}}, Sizing))
     assert {rule for _, _, rule in asked} == {"optimality"}
     assert [factor for name, factor, _ in asked if name == "00-03"] == [4.0, 12.0]
     assert [factor for name, factor, _ in asked if name == "00-00"] == [4.0, 6.0, 7.13, 12.0]
