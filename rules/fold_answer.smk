@@ -20,6 +20,7 @@ rule fold_answer:
         "../envs/foldshell.yaml"
     params:
         summary=table_summary(),
+        listed=sorted(path.stem for path in Path("config/explorations").glob("*.yaml")),
     message:
         "what the fold buys, and what it costs"
     script:

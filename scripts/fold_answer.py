@@ -20,16 +20,18 @@ def main(
     *,
     tables: Sequence[str | Path],
     summary: str | Path | None = None,
+    listed: Sequence[str] = (),
 ) -> None:
     """Write function_follows_fold.md, its two charts and found.tsv from the explore.tsv of
-    explorations; `summary` is that of the study of the table."""
+    explorations; `summary` is that of the study of the table, `listed` are the names of those
+    that are set up."""
     searched = [read_searched(table) for table in tables]
     rows = read_rows(summary, SummaryRow) if summary else []
     draw_factors(pictures[0], searched)
     draw_panels(pictures[1], searched)
     home = Path(page_path).parent
     names = [Path(picture).relative_to(home).as_posix() for picture in pictures]
-    write_text_if_changed(page_path, write_answer(searched, names, rows))
+    write_text_if_changed(page_path, write_answer(searched, names, rows, listed))
     selected = [Path(table).with_name("selected.tsv") for table in tables]
     join_tables(found_path, [path for path in selected if path.is_file()], list_found(searched))
 
@@ -42,4 +44,5 @@ if "snakemake" in globals():
             snakemake.output.pictures,  # noqa: F821
             tables=snakemake.input.tables,  # noqa: F821
             summary=next(iter(snakemake.params.summary), None),  # noqa: F821
+            listed=snakemake.params.listed,  # noqa: F821
         )

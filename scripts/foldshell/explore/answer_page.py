@@ -28,18 +28,22 @@ STEEL = (
 
 
 def write_answer(
-    searched: Sequence[Searched], pictures: Sequence[str], summary: Sequence[SummaryRow] = ()
+    searched: Sequence[Searched],
+    pictures: Sequence[str],
+    summary: Sequence[SummaryRow] = (),
+    listed: Sequence[str] = (),
 ) -> str:
     """Return the answer as Markdown.
 
     `pictures` are the files of two charts, concrete against buckling factor and against panels;
-    `summary` are the rows of the study of the table, where it has been run
+    `summary` are the rows of the study of the table, where it has been run; `listed` names the
+    explorations that are set up, run or not
     """
     front, panels = pictures
     parts = [
         _section(TITLE, [_open(searched)]),
         _section("## In short", words.list_short(searched)),
-        _section("## What was searched", _describe(searched)),
+        _section("## What was searched", _describe(searched), _say_missing(searched, listed)),
         _section(
             "## By the paper's measure",
             _lead(RULE, tables.tabulate_judged(searched, "paper")),
@@ -119,6 +123,17 @@ def _describe(searched: Sequence[Searched]) -> list[str]:
             f"{limits['depth_min_m']:g} to {limits['depth_max_m']:g} m deep, buckling factor at "
             f"least {limits['buckling_factor_min']:g}."
         )
+    return lines
+
+
+def _say_missing(searched: Sequence[Searched], listed: Sequence[str]) -> list[str]:
+    """Return which explorations are set up and have not been run, or not been compared."""
+    missing = sorted(set(listed) - {one.name for one in searched})
+    alone = [one.name for one in searched if not one.judged_as("reinforced", FOUND)]
+    lines = [f"- **Not run here**: {', '.join(missing)}; nothing is said of these roofs."]
+    lines = lines if missing else []
+    if alone:
+        lines.append(f"- **Not sized alike at the ordinary mesh here**: {', '.join(alone)}.")
     return lines
 
 

@@ -124,6 +124,7 @@ def test_an_exploration_alone_is_a_whole_page(table, tmp_path):
     bare.parent.mkdir()
     bare.write_text(table.read_text())
     text = write_answer([read_searched(bare)], PICTURES)
+    assert "Not sized alike at the ordinary mesh here**: bare" in text
     assert "Nothing has been sized alike yet" in text and "By the engineering verdict" not in text
     assert write_answer([Searched("empty", ())], PICTURES).startswith("# What the fold buys")
 
@@ -142,6 +143,12 @@ def test_the_script_writes_page_charts_and_table(table, tmp_path):
     assert made[0] == made[1]
     assert made[0][1].decode().splitlines()[1].startswith("roof-01-00\t")
     assert made[0][2][:4] == b"\x89PNG" and b"](images/two.png)" in made[0][0]
+
+
+def test_explorations_that_have_not_been_run_are_named(table):
+    text = write_answer([read_searched(table)], PICTURES, (), ("dome", "roof"))
+    assert "**Not run here**: dome; nothing is said of these roofs." in text
+    assert "Not run here" not in write_answer([read_searched(table)], PICTURES, (), ("roof",))
 
 
 def test_another_table_is_refused(tmp_path):
