@@ -82,7 +82,7 @@ def test_a_small_search_makes_a_whole_answer(code, tmp_path):
                   "## What it buys", "## What it costs", "## Where limits decide",
                   "explore beside"):  # fmt: skip
         assert words in page, words
-    assert "sized alike yet" not in page and "nan" not in page and "None" not in page
+    assert "mesh yet" not in page and "nan" not in page and "None" not in page
     for name in ("factors", "panels"):
         assert f"](images/fold_answer_{name}.png)" in page
         assert (home / f"images/fold_answer_{name}.png").stat().st_size > 5000

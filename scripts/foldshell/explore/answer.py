@@ -53,11 +53,12 @@ class Searched:
     judged: dict[str, tuple[JudgedRow, ...]] = field(default_factory=dict)
     about: Plain = field(default_factory=dict)
     tried: int = 0
+    first: dict[str, str] = field(default_factory=dict)
 
     @property
     def title(self) -> str:
         """What roof it is, in words."""
-        base = self.about.get("exploration", {}).get("base")
+        base = self.about.get("exploration", {}).get("base") or self.first
         if not base:
             return self.name
         edges = {"zigzag": "zig-zag edges", "strip": "strip edges", "all": "all edges"}
@@ -128,6 +129,7 @@ def read_searched(table: str | Path) -> Searched:
         {measure: _read_beside(rivals / f"{measure}.csv", JudgedRow) for measure in MEASURES},
         read_json(about) if about.is_file() else {},
         sum(not row["candidate"].startswith("00") for row in rows),
+        next(iter(first.values()), {}),
     )
 
 
@@ -162,9 +164,9 @@ def _make_point(row: dict[str, str], first: dict[str, dict[str, str]]) -> Point:
 
 def choose_point(one: Searched, kind: str) -> Point | None:
     """Return the point of the shell of a kind that was sized again, else the lightest one."""
-    row = one.judged_as("paper", kind)
-    known = one.point_of(row.design) if row else None
-    return known or next(iter(one.of(kind)), None)
+    judged, resized = one.judged_as("paper", kind), one.resized_as(kind)
+    name = judged.design if judged else resized[0].candidate if resized else ""
+    return one.point_of(name) if name else None
 
 
 def list_found(searched: Sequence[Searched]) -> list[str]:

@@ -41,6 +41,41 @@ def compare_covered(searched: Sequence[Searched], measure: str) -> Iterator[tupl
             yield one.title, found / smooth - 1
 
 
+def compare_factors(
+    searched: Sequence[Searched], factor: float, covered: bool
+) -> Iterator[tuple[str, float]]:
+    """Yield each roof with the concrete of the fold over that of the smooth shell for one factor.
+
+    The fold is the lightest that was tried or the best sized anew; `covered`: for each m2 of plan
+    that is covered.
+    """
+    for one in searched:
+        tried, anew = one.lightest(factor), one.resized_for(FOUND, factor)
+        smooth, whole = one.resized_for(SMOOTH, factor), choose_point(one, SMOOTH)
+        rows = [(tried.volume, tried)] if tried else []
+        rows += [(anew.volume_m3, one.point_of(anew.candidate))] if anew else []
+        shares = [point.coverage if covered and point.coverage else 1.0 for _, point in rows]
+        volumes = [volume / share for (volume, _), share in zip(rows, shares, strict=True)]
+        if volumes and smooth:
+            share = (covered and whole and whole.coverage) or 1.0
+            yield one.title, min(volumes) * share / smooth.volume_m3 - 1
+
+
+def list_factors(searched: Sequence[Searched]) -> list[str]:
+    """Return the fold against the smooth shell for each factor that all roofs were sized for."""
+    sets = [{row.factor_due for row in one.resized} for one in searched if one.resized]
+    lines = []
+    for factor in sorted(set.intersection(*sets)) if sets else []:
+        if pairs := list(compare_factors(searched, factor, False)):
+            more = say_changes(list(compare_factors(searched, factor, True)))
+            lines.append(
+                f"- **At a buckling factor of {factor:g}, on the mesh of the search, against "
+                f"{NAMES[SMOOTH]}**: concrete {count_less(pairs)} ({say_changes(pairs)}); for each "
+                f"m² of plan that is covered {more}."
+            )
+    return lines
+
+
 def say_changes(pairs: Sequence[tuple[str, float]]) -> str:
     """Return ratios in words, the least first: roof and per cent."""
     ordered = sorted(pairs, key=lambda pair: (pair[1], pair[0]))
@@ -74,8 +109,9 @@ def list_short(searched: Sequence[Searched]) -> list[str]:
                 f"- {words}, for each m² of plan that is covered, against {NAMES[SMOOTH]}: "
                 f"concrete {count_less(pairs)} ({say_changes(pairs)})."
             )
-    alone = lines or ["- Nothing has been sized alike yet."]
-    return [*list_lightest(searched), *alone, *list_verdicts(searched)]
+    alone = lines or ["- Nothing has been sized alike at the ordinary mesh yet."]
+    factors = list_factors(searched)
+    return [*list_lightest(searched), *factors, *alone, *list_verdicts(searched)]
 
 
 def list_lightest(searched: Sequence[Searched]) -> list[str]:
@@ -195,8 +231,9 @@ def list_limits(searched: Sequence[Searched]) -> list[str]:
         if bounds := one.about.get("bounds"):
             words = ", ".join(f"{WORDS.get(name, name)} at {end:g}" for name, end in bounds)
             lines.append(f"- {one.title}: the best stands at the end of a range: {words}.")
-        row, least = one.judged_as("paper", FOUND), one.about.get("least_thickness_m")
-        if row and least and (row.volume_per_area_m or 0) < THIN * least:
+        row, point = next(iter(one.resized_as(FOUND)), None), choose_point(one, FOUND)
+        least = one.about.get("least_thickness_m")
+        if row and point and least and row.volume_m3 < THIN * least * point.area:
             thin.append(one.title)
     if lines:
         lines.append(

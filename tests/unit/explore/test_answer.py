@@ -50,9 +50,14 @@ def test_sentences_follow_from_the_numbers(table):
         "- arch, strip edges: the fold is lighter (-14 %) at a factor of 4; the fold is lighter "
         "(-24 %) at a factor of 6; the smooth shell is lighter (-12 %) at a factor of 12."
     ) in text
+    assert (
+        "**At a buckling factor of 6, on the mesh of the search, against the smooth shell**: "
+        "concrete less on 1 of 1 roof (arch, strip edges -24 %); for each m² of plan that is "
+        "covered arch, strip edges -20 %."
+    ) in text
     assert "the best stands at the end of a range: rest fold angle at 30" in text
     assert "Nearly all panels stand at the least thickness on 1 of 1 roofs" in text
-    assert "Area of the sheet over that of the smooth shell: arch, strip edges +11 %" in text
+    assert "Area of the sheet over that of the smooth shell: arch, strip edges +38 %" in text
     assert "| arch, strip edges | 120: 50.0, 80: 56.0 | 210: 100.0, 90: 110.0 |" in text
     assert "0 of 1 of these searches aimed at few panels" in text
     assert "fails: room for bars, shear" in text
@@ -64,9 +69,9 @@ def test_other_numbers_give_other_sentences(table):
     one = read_searched(table)
     heavy = [make_judged("found", 70.0, volume_per_area_m=0.07, engineering="passes"),
              *(row for row in one.judged["paper"] if row.kind != "found")]  # fmt: skip
-    one = replace(
-        one, judged=one.judged | {"paper": tuple(heavy)}, about=one.about | {"bounds": []}
-    )
+    thick = [replace(row, volume_m3=70.0) if row.kind == "found" else row for row in one.resized]
+    judged, about = one.judged | {"paper": tuple(heavy)}, one.about | {"bounds": []}
+    one = replace(one, judged=judged, about=about, resized=tuple(thick))
     text = write_answer([one], PICTURES)
     assert "concrete less on 0 of 1 roof, more on 1 (arch, strip edges +21 %)" in text
     assert "No best design stands at the end of a range or at the least thickness" in text
@@ -125,7 +130,10 @@ def test_an_exploration_alone_is_a_whole_page(table, tmp_path):
     bare.write_text(table.read_text())
     text = write_answer([read_searched(bare)], PICTURES)
     assert "Not sized alike at the ordinary mesh here**: bare" in text
-    assert "Nothing has been sized alike yet" in text and "By the engineering verdict" not in text
+    assert (
+        "Nothing has been sized alike at the ordinary mesh yet" in text
+        and "By the engineering verdict" not in text
+    )
     assert write_answer([Searched("empty", ())], PICTURES).startswith("# What the fold buys")
 
 
