@@ -39,11 +39,26 @@ def write_answer(
     `summary` are the rows of the study of the table, where it has been run; `listed` names the
     explorations that are set up, run or not
     """
-    front, panels = pictures
     parts = [
         _section(TITLE, [_open(searched)]),
         _section("## In short", words.list_short(searched)),
         _section("## What was searched", _describe(searched), _say_missing(searched, listed)),
+        *_list_numbers(searched, pictures),
+        _section("## What it buys", _say_bought(searched)),
+        _section(
+            "## What it costs", tables.tabulate_geometry(searched), words.list_costs(searched)
+        ),
+        _section("## Where limits decide", words.list_limits(searched)),
+        _section("## Rows of the table", tables.tabulate_rows(searched, summary)),
+        _section("## Read with care", _warn(searched, summary)),
+    ]  # fmt: skip
+    return "\n".join(line for part in parts for line in part)
+
+
+def _list_numbers(searched: Sequence[Searched], pictures: Sequence[str]) -> list[list[str]]:
+    """Return the sections by measure, with both fronts."""
+    front, panels = pictures
+    return [
         _section(
             "## By the paper's measure",
             _lead(RULE, tables.tabulate_judged(searched, "paper")),
@@ -66,15 +81,7 @@ def write_answer(
             _lead(STEEL, tables.tabulate_judged(searched, "reinforced")),
             tables.tabulate_steel(searched),
         ),
-        _section("## What it buys", _say_bought(searched)),
-        _section(
-            "## What it costs", tables.tabulate_geometry(searched), words.list_costs(searched)
-        ),
-        _section("## Where limits decide", words.list_limits(searched)),
-        _section("## Rows of the table", tables.tabulate_rows(searched, summary)),
-        _section("## Read with care", _warn(searched, summary)),
     ]  # fmt: skip
-    return "\n".join(line for part in parts for line in part)
 
 
 def _section(title: str, *blocks: Sequence[str]) -> list[str]:
