@@ -10,7 +10,7 @@ from foldshell.settings.material import Material
 from foldshell.shell.analysis import ShellModel
 from foldshell.shell.results import panel_area
 from foldshell.shell.stiffness import ShellOperators
-from foldshell.shell.stress import outer_stresses, sample_points, stress_resultants
+from foldshell.shell.stress import outer_stresses, sample_basis, sample_points, stress_resultants
 
 
 @dataclass(frozen=True)
@@ -70,13 +70,13 @@ def utilization_of_combinations(
     modulus = material.youngs_modulus
     resultants = stress_resultants(operators, displacement, thickness, modulus, imposed)
     points = sample_points(operators.mesh.cells)
-    flat = points.reshape(-1, 2)
+    basis = sample_basis(operators.mesh.order, operators.mesh.cells)
     criterion = CRITERIA[material.criterion]
     combination = np.empty((displacement.shape[1], len(thickness), *points.shape[:2]))
 
     def evaluate(column: int) -> None:
         own = resultants.column(column)
-        stress = outer_stresses(operators, own, thickness, flat)[:, :, 0]
+        stress = outer_stresses(own, thickness, basis)[:, :, 0]
         value = criterion(np.moveaxis(stress, 1, -1), material).max(axis=0)
         combination[column] = value.reshape(combination.shape[1:])
 

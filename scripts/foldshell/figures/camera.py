@@ -10,6 +10,11 @@ STANDARD_DIRECTION = (-0.55, -0.75, 0.62)
 """From the sheet towards the eye: from the side of low x and y, and from above."""
 
 
+NEARLY, RIM = 2, 0.05
+"""Step of the fit at which the camera hardly moves any more: from then on points are left out that
+are further inside the picture than this share of it."""
+
+
 @dataclass(frozen=True)
 class Camera:
     """Eye and focal point (3,) m, z up; `view_angle` rad is that of the picture's height."""
@@ -60,10 +65,13 @@ def fit_camera(
     focus = (points.max(axis=0) + points.min(axis=0)) / 2
     radius = float(np.linalg.norm(points - focus, axis=1).max())
     distance = radius / math.sin(angle / 2)
-    for _ in range(30):
+    for number in range(30):
         camera = Camera(focus + distance * away, focus, angle)
         seen = camera.project(points)
         low, high = seen.min(axis=0), seen.max(axis=0)
+        if number == NEARLY:
+            inner = (seen > low + RIM * (high - low)) & (seen < high - RIM * (high - low))
+            points = points[~inner.all(axis=1)]
         fill = float(((high - low) / (2 * aspect, 2)).max()) / (1 - 2 * margin)
         shift = (low + high) / 2 * math.tan(angle / 2) * distance
         focus = focus + shift @ camera.axes()[:2]

@@ -83,7 +83,7 @@ def _render(window, scene: Scene, camera: Camera) -> np.ndarray:
 
     renderer = vtkRenderer()
     renderer.SetBackground(1.0, 1.0, 1.0)
-    renderer.AddActor(_make_surface(scene))
+    renderer.AddActor(_make_surface(scene, camera))
     for lines in scene.lines:
         if len(lines.points):
             renderer.AddActor(_make_lines(lines, camera))
@@ -143,16 +143,31 @@ def _make_actor(data, colour: tuple[int, int, int] = (255, 255, 255)):
     return actor, look
 
 
-def _make_surface(scene: Scene):
+def _make_surface(scene: Scene, camera: Camera):
+    """Return the surface in colours that are lit already: VTK would do it pixel by pixel."""
     from vtkmodules.util.numpy_support import numpy_to_vtk
 
-    data = _make_poly_data(scene.points, scene.triangles)
-    place = data.GetCellData if len(scene.colours) == len(scene.triangles) else data.GetPointData
-    place().SetScalars(numpy_to_vtk(np.ascontiguousarray(scene.colours), deep=1))
+    corners = scene.points[scene.triangles].reshape(-1, 3)
+    data = _make_poly_data(corners, np.arange(len(corners)).reshape(-1, 3))
+    data.GetPointData().SetScalars(numpy_to_vtk(_light(scene, camera), deep=1))
     actor, look = _make_actor(data)
-    look.SetAmbient(AMBIENT)
-    look.SetDiffuse(DIFFUSE)
+    look.LightingOff()
     return actor
+
+
+def _light(scene: Scene, camera: Camera) -> np.ndarray:
+    """Return the colours (3 C, 3) uint8 of the corners of triangles in light along the view."""
+    corner = scene.points[scene.triangles]
+    normal = np.cross(corner[:, 1] - corner[:, 0], corner[:, 2] - corner[:, 0])
+    length = np.linalg.norm(normal, axis=1)
+    facing = np.abs(normal @ camera.axes()[2]) / np.where(length > 0, length, 1)
+    shade = AMBIENT + DIFFUSE * facing
+    own = scene.colours
+    if len(own) == len(corner):
+        lit = np.repeat(own * shade[:, None], 3, axis=0)
+    else:
+        lit = (own[scene.triangles] * shade[:, None, None]).reshape(-1, 3)
+    return np.clip(np.rint(lit), 0, 255).astype(np.uint8)
 
 
 def _make_lines(lines: Lines, camera: Camera):

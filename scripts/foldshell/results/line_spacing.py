@@ -34,31 +34,46 @@ def thin_out(lines: list[PrincipalStressLine], spacing: float) -> list[Principal
     """Keep lines, strongest first, whose start is `spacing` m from all kept before, in a piece
     about their start up to where they come within half of that of one of them."""
     order = sorted(range(len(lines)), key=lambda k: (-lines[k].strength, k))
-    near: set[tuple[int, int, int]] = set()
-    taken: set[tuple[int, int, int]] = set()
+    if not lines:
+        return []
+    every = np.concatenate([line.points for line in lines])
+    near, taken = _Grid(every, spacing), _Grid(every, spacing / 2)
     kept = []
     for k in order:
         line = lines[k]
-        if _boxes(line.points[line.start : line.start + 1], spacing)[0] in near:
+        if near.holds(line.points[line.start : line.start + 1])[0]:
             continue
-        boxes = _boxes(line.points, spacing / 2)
-        free = np.array([box not in taken for box in boxes])
-        start, end = _run_about(free, line.start)
+        start, end = _run_about(~taken.holds(line.points), line.start)
         part = line.points[start:end]
         if end - start > 1 and _length(part) >= SPACINGS_MIN * spacing:
-            taken.update(boxes[start:end])
-            near.update(_boxes(part, spacing, around=True))
+            taken.mark(part)
+            near.mark(part, around=True)
             piece = line.start - start
             kept.append(PrincipalStressLine(part, line.force[start:end], line.family, piece))
     return kept
 
 
-def _boxes(points: np.ndarray, side: float, around: bool = False) -> list[tuple[int, int, int]]:
-    """Return the box of each point (n, 3) m, or these boxes with all that touch them."""
-    boxes = np.floor(points / side).astype(int)
-    if around:
-        boxes = (boxes[:, None] + AROUND).reshape(-1, 3)
-    return list(map(tuple, boxes.tolist()))
+class _Grid:
+    """Boxes of a given side, m, some of them marked, about all points (n, 3) m that may come."""
+
+    def __init__(self, points: np.ndarray, side: float) -> None:
+        low, high = (np.floor(end / side) for end in (points.min(axis=0), points.max(axis=0)))
+        self._side, self._low = side, low.astype(int) - 1
+        self._marked = np.zeros((high - low).astype(int) + 3, dtype=bool)
+
+    def holds(self, points: np.ndarray) -> np.ndarray:
+        """Tell of each point (n, 3) m whether its box is marked."""
+        return self._marked[tuple(self._boxes(points).T)]
+
+    def mark(self, points: np.ndarray, around: bool = False) -> None:
+        """Mark the boxes of points (n, 3) m, or these with all that touch them."""
+        boxes = self._boxes(points)
+        if around:
+            boxes = (boxes[:, None] + AROUND).reshape(-1, 3)
+        self._marked[tuple(boxes.T)] = True
+
+    def _boxes(self, points: np.ndarray) -> np.ndarray:
+        return np.floor(points / self._side).astype(int) - self._low
 
 
 def split_lines(lines: list[PrincipalStressLine]) -> tuple[np.ndarray, np.ndarray]:

@@ -8,6 +8,7 @@ neighbour's principal direction it takes the nearer one.
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -48,22 +49,35 @@ class ForceField:
     def principal(
         self, element: np.ndarray, place: np.ndarray, family: np.ndarray
     ) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-        """Return value (K,) kN/m, local direction (K, 2) and whether there is one (K,).
+        """Return value, direction and whether there is one, see `choose_principal`.
 
-        Family (K,) 0 is the larger force, 1 the other. Where both are nearly equal no direction is
-        principal.
+        Places (K, 2) in the reference triangle of elements (K,) have no unit.
         """
-        xx, yy, xy = self.evaluate(element, place).T
-        angle = np.arctan2(2 * xy, xx - yy) / 2 + family * np.pi / 2
-        mean, radius = (xx + yy) / 2, np.hypot((xx - yy) / 2, xy)
-        value = mean + (1 - 2 * family) * radius
-        distinct = 2 * radius >= SPREAD_MIN * (np.abs(mean) + radius)
-        return value, np.stack([np.cos(angle), np.sin(angle)], axis=1), distinct
+        return choose_principal(self.evaluate(element, place), family)
 
     def position(self, element: np.ndarray, place: np.ndarray) -> np.ndarray:
         """Return points in space (K, 3) m."""
         corner = self.mesh.nodes[self.mesh.corners[element]]
         return np.einsum("kc,kcx->kx", barycentric(place), corner)
+
+
+def choose_principal(
+    force: np.ndarray, family: np.ndarray
+) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Return value (K,) kN/m, local direction (K, 2) and whether there is one (K,).
+
+    Family (K,) 0 is the larger of the principal forces of (K, 3) kN/m, 1 the other. Where both are
+    nearly equal no direction is principal.
+    """
+    xx, yy, xy = force.T
+    angle = np.arctan2(2 * xy, xx - yy) / 2 + family * np.pi / 2
+    mean, radius = (xx + yy) / 2, np.hypot((xx - yy) / 2, xy)
+    value = mean + (1 - 2 * family) * radius
+    distinct = 2 * radius >= SPREAD_MIN * (np.abs(mean) + radius)
+    direction = np.empty((len(angle), 2))
+    np.cos(angle, out=direction[:, 0])
+    np.sin(angle, out=direction[:, 1])
+    return value, direction, distinct
 
 
 def make_force_field(
@@ -78,10 +92,17 @@ def make_force_field(
 
 def monomials(degree: int, place: np.ndarray) -> np.ndarray:
     """Return r^i s^j (K, m), i + j <= degree, at reference points (K, 2)."""
-    i, j = np.array([(i, j) for i in range(degree + 1) for j in range(degree + 1 - i)]).T
-    first = np.vander(place[:, 0], degree + 1, increasing=True)
-    second = np.vander(place[:, 1], degree + 1, increasing=True)
-    return first[:, i] * second[:, j]
+    i, j = _exponents(degree)
+    powers = np.ones((degree + 1, *place.shape))
+    for k in range(degree):
+        np.multiply(powers[k], place, out=powers[k + 1])
+    return (powers[i, :, 0] * powers[j, :, 1]).T
+
+
+@lru_cache(maxsize=8)
+def _exponents(degree: int) -> np.ndarray:
+    """Return i and j (2, m) with i + j <= degree."""
+    return np.array([(i, j) for i in range(degree + 1) for j in range(degree + 1 - i)]).T
 
 
 def barycentric(place: np.ndarray) -> np.ndarray:
@@ -218,9 +239,9 @@ def _cross(field, family, neighbour, element, place, direction, edge, force):
 
 def _choose_family(field, family, element, place, direction, force):
     """Return family, direction and cosine of the turn with which lines go on beyond a fold."""
-    found = []
+    found, here = [], field.evaluate(element, place)
     for one in (family, 1 - family):
-        value, principal, _ = field.principal(element, place, one)
+        value, principal, _ = choose_principal(here, one)
         principal = _align(principal, direction)
         found.append((value, principal, np.einsum("ka,ka->k", principal, direction)))
     (_, own, cosine), (value, other, other_cosine) = found

@@ -13,13 +13,21 @@ from foldshell.settings.material import Material
 from foldshell.shell.assembly import LowerPattern, assemble_stiffness, find_pattern
 from foldshell.shell.boundary import find_acting
 from foldshell.shell.buckling import BucklingResult
-from foldshell.shell.effort import USUAL, Effort
+from foldshell.shell.effort import FULL, USUAL, Effort
 from foldshell.shell.linear_solver import NotPositiveDefiniteError
 from foldshell.shell.mesh import ShellMesh, translation_dofs
 from foldshell.shell.nodal_loads import nodal_forces
 from foldshell.shell.placed_loads import PlacedLoads, place_loads
-from foldshell.shell.second_order import SecondOrderResult
-from foldshell.shell.solution import Solution, State, describe_mechanism, initial_shape
+from foldshell.shell.solution import (
+    AnalysisResult,
+    Riders,
+    Solution,
+    State,
+    describe_mechanism,
+    initial_shape,
+    judge_state,
+    settle,
+)
 from foldshell.shell.stiffness import ShellOperators, build_operators, restrict_operators
 
 
@@ -63,43 +71,6 @@ class ShellModel:
     def to_elements(self, thickness: np.ndarray) -> np.ndarray:
         """Return the thickness of each element (E,) from that of the sized panels (P,), m."""
         return np.concatenate([thickness, self.fixed_thickness])[self.mesh.panel]
-
-
-@dataclass(frozen=True)
-class AnalysisResult:
-    """Displacements of every combination, and how they came about.
-
-    Attributes
-    ----------
-    state : "ok", "unstable" (a buckling factor below 1), "mechanism" (K is not positive definite)
-        or "not_converged"; `reason` says more
-    names : combination names; c of them
-    displacement : (dofs, c) m and rad, second order where asked for
-    first_order : (dofs, c) displacement of first order
-    loads : (dofs, c) kN
-    buckling : factors and modes (free, c), or None
-    second_order : iterations and residual, or None
-    mechanism_node : node that moves most in a mechanism, else None
-    imperfection : (dofs,) initial shape in m and rad, or None
-    imposed : (E, 2, c) strain and curvature (1/m) that temperature imposes, or None
-    """
-
-    state: str
-    reason: str
-    names: tuple[str, ...]
-    displacement: np.ndarray
-    first_order: np.ndarray
-    loads: np.ndarray
-    buckling: BucklingResult | None = None
-    second_order: SecondOrderResult | None = None
-    mechanism_node: int | None = None
-    imperfection: np.ndarray | None = None
-    imposed: np.ndarray | None = None
-
-    @property
-    def least_factor(self) -> float | None:
-        """Least buckling factor of all combinations, inf where nothing is compressed."""
-        return None if self.buckling is None else float(self.buckling.factors.min())
 
 
 def build_model(
@@ -179,7 +150,7 @@ class ShellAnalysis:
         forces = nodal_forces(model.operators, placed.at(thickness))
         self._factors = combination_matrix(combinations, placed.names)
         self._strains = placed.strains(thickness, material.thermal_expansion)
-        self._moved = _settle(model, placed)
+        self._moved = settle(model, placed)
         self._names, self._loads = tuple(combinations), forces @ self._factors
         self._stiffness = model.operators, model.pattern, thickness, material.youngs_modulus
         self._checked = False
@@ -191,6 +162,7 @@ class ShellAnalysis:
             return
         self._by_case = self._solution.solve(forces, self._strains, self._moved)
         self._first_order = self._by_case @ self._factors
+        self._search = self._bending = self._riders = None
 
     def run(
         self,
@@ -200,6 +172,7 @@ class ShellAnalysis:
     ) -> AnalysisResult:
         """Return first order, buckling factors and second order of all combinations.
 
+        Another run with more effort goes on where the one before ended; none is due after `FULL`.
         start_modes (free, c) are buckling modes of an earlier, similar state, without unit; `start`
         (dofs, c) m and rad are displacements with which second order begins.
         """
@@ -207,13 +180,37 @@ class ShellAnalysis:
             return self._report_mechanism()
         if not self._options.second_order:
             return self._report_first_order()
-        state = self._by_case, self._strains, self._factors
-        return self.bend(self._solution.buckling(*state, start_modes, effort), effort, start)
+        found = self._buckle(effort, start_modes, start is None and not self._options.imperfection)
+        return self.bend(found, effort, start)
 
     @property
     def first_order(self) -> np.ndarray | None:
         """Displacements (dofs, c) of first order, None of a mechanism. m and rad."""
         return None if self._solution is None else self._first_order
+
+    def _buckle(
+        self, effort: Effort, start_modes: np.ndarray | None, perfect: bool
+    ) -> BucklingResult:
+        """Search for buckling, or go on; the first correction of second order rides along where
+        that begins with the `perfect` state of first order."""
+        search = self._search
+        if search is None:
+            if perfect:
+                self._riders = Riders(self._solution.push(*self._perfect_state()))
+            state = self._by_case, self._strains, self._factors
+            search = self._solution.search_buckling(*state, self._riders)
+        self._search = None if effort is FULL else search
+        return search.run(effort, start_modes)
+
+    def _perfect_state(self) -> tuple[np.ndarray, State, np.ndarray]:
+        """Return first-order displacements (free, c), the state that they are of, all columns."""
+        free = self._first_order[self._model.pattern.dofs]
+        return free, self._state(None), np.arange(free.shape[1])
+
+    def _state(self, imperfection: np.ndarray | None) -> State:
+        settled = None if self._moved is None else self._moved @ self._factors
+        imposed = None if self._strains is None else self._strains @ self._factors
+        return State(imperfection, imposed, settled)
 
     def bend(
         self, buckling: BucklingResult, effort: Effort, start: np.ndarray | None = None
@@ -229,15 +226,20 @@ class ShellAnalysis:
             reason = f"buckling factor {buckling.factors[lowest]:.4g} of {names[lowest]} is below 1"
             return replace(basic, state="unstable", reason=reason)
         imperfection = initial_shape(model, buckling, lowest, self._loads, options.imperfection)
-        settled = None if self._moved is None else self._moved @ self._factors
-        tolerance = max(options.second_order_tolerance, effort.second_order_tolerance)
-        second = self._solution.second_order(
-            basic.first_order, tolerance, options.second_order_iterations_max,
-            State(imperfection, basic.imposed, settled), start,
+        state = self._state(imperfection)
+        if self._bending is None or imperfection is not None or start is not None:
+            known = basic.first_order, state, self._riders, start
+            self._bending = self._solution.search_second_order(*known)
+        rough = effort.second_order_tolerance > options.second_order_tolerance
+        second = self._bending.run(
+            effort.second_order_tolerance if rough else options.second_order_tolerance,
+            options.second_order_iterations_max, 1 / buckling.factors if rough else None,
         )  # fmt: skip
-        displacement = np.zeros_like(basic.first_order) if settled is None else settled.copy()
+        displacement = np.zeros_like(basic.first_order)
+        if state.settled is not None:
+            displacement = state.settled.copy()
         displacement[model.pattern.dofs] = second.displacement
-        verdict, reason = _judge(names, second, buckling)
+        verdict, reason = judge_state(names, second, buckling)
         return replace(
             basic, state=verdict, reason=reason, displacement=displacement, second_order=second,
             imperfection=imperfection,
@@ -246,7 +248,7 @@ class ShellAnalysis:
     def _report_first_order(self) -> AnalysisResult:
         return AnalysisResult(
             "ok", "first order only", self._names, self._first_order, self._first_order,
-            self._loads, imposed=None if self._strains is None else self._strains @ self._factors,
+            self._loads, imposed=self._state(None).imposed,
         )  # fmt: skip
 
     def _is_mechanism(self, effort: Effort) -> bool:
@@ -274,26 +276,3 @@ def place_on_model(model: ShellModel, cases: Sequence[SurfaceLoad]) -> PlacedLoa
         return ~free.reshape(-1, 3)
 
     return place_loads(model.operators, model.self_weight_only, cases, held)
-
-
-def _settle(model: ShellModel, placed: PlacedLoads) -> np.ndarray | None:
-    """Return the displacements of supports as fields (dofs, C), or None."""
-    if placed.settled is None:
-        return None
-    moved = np.zeros((model.mesh.dof_count, len(placed.names)))
-    moved[: 3 * len(model.mesh.nodes)] = placed.settled.reshape(-1, len(placed.names))
-    return moved
-
-
-def _judge(names, second: SecondOrderResult, buckling: BucklingResult) -> tuple[str, str]:
-    """Return the state, and in words what did not converge."""
-    if not second.converged:
-        worst = int(np.argmax(second.residual))
-        return "not_converged", (
-            f"second order of {names[worst]} stands at a relative change of "
-            f"{second.residual[worst]:.1e} after {second.iterations} iterations"
-        )
-    if not buckling.converged:
-        change = buckling.change.max()
-        return "not_converged", f"buckling factors still change by {change:.1e}"
-    return "ok", ""

@@ -8,12 +8,11 @@ enlarged by K^-1 K_g x of every mode x that is not yet accurate: a block Davidso
 
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
-from functools import reduce
 
 import numpy as np
 
-from foldshell.files.threads import divide, divide_rows, run_parts
 from foldshell.shell.effort import NEAR, USUAL, Effort
+from foldshell.shell.subspace import Products, Subspace
 
 GROWTH = 10.0
 """Multiple of the square of a change by which 1/factor may still grow: that of a gap of a tenth."""
@@ -26,15 +25,6 @@ SEARCH_ITERATIONS = 12
 
 START_SEED = 2018
 """Seed of the start vectors, fixed so that reruns agree to the last bit."""
-
-DEPENDENT = 1e-22
-"""Share of a vector's energy that is left beside the basis when it lies within it: rounding."""
-
-ROOM = 96
-"""Vectors for which memory is set aside at first."""
-
-LEAST_COLUMNS = 2
-"""Vectors of a part that is worked on alone on a large mesh."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +51,6 @@ def find_buckling_factors(
     start: np.ndarray | None = None,
     effort: Effort = USUAL,
     iterations_max: int = 60,
-    apply_mixed: Callable[[np.ndarray, np.ndarray], np.ndarray] | None = None,
 ) -> BucklingResult:
     """Find the least positive buckling factor of each combination.
 
@@ -73,61 +62,103 @@ def find_buckling_factors(
     factors : (cases, c) combination factors
     start : (size, c) modes of a similar structure to begin with
     effort : how it begins and when it ends; without random vectors only if there is a `start`
-    apply_mixed : maps (size, k) and combination factors (cases, k) to K_g of each column's own
-        combination times it, (size, k); by default by `apply_cases`
 
     Factors without unit.
     """
-    first, which, ratio = _proportional_columns(factors)
-    begin = None if start is None else start[:, first]
-    cases = factors[:, first]
-    mixed = apply_mixed or _mix_cases(apply_cases)
-    space = _Subspace(solve, apply_cases, mixed, len(cases), size)
-    found = _find_distinct(space, cases, begin, effort, iterations_max)
-    with np.errstate(divide="ignore"):
-        values = np.where(ratio > 0, found.factors[which] / ratio, np.inf)
-    return replace(found, factors=values, modes=found.modes[:, which], change=found.change[which])
+    search = BucklingSearch(solve, _Cases(apply_cases), factors, size)
+    return search.run(effort, start, iterations_max)
 
 
-def _mix_cases(apply_cases) -> Callable[[np.ndarray, np.ndarray], np.ndarray]:
-    return lambda vectors, factors: sum(
-        own * share for own, share in zip(apply_cases(vectors), factors, strict=True)
-    )
+@dataclass(frozen=True)
+class _Cases:
+    """Products by a function that gives those of one case after the other."""
+
+    apply: Callable[[np.ndarray], Iterable[np.ndarray]]
+
+    def mix(self, vectors: np.ndarray, factors: np.ndarray) -> np.ndarray:
+        """Return the products of the combination of each column."""
+        pairs = zip(self.apply(vectors), factors, strict=True)
+        return sum(own * share for own, share in pairs)
+
+    def project(self, vectors: np.ndarray, chosen: slice) -> np.ndarray:
+        """Return the projected products of all vectors with the chosen ones."""
+        return np.stack([vectors @ own for own in self.apply(vectors[chosen].T)])
 
 
-def _find_distinct(space, factors, start, effort: Effort, iterations_max) -> BucklingResult:
-    """Find the factors of combinations none of which is a multiple of another."""
-    space.extend(_begin(space, factors, start, effort))
-    pairs = min(max(effort.pairs, -(-effort.followed // factors.shape[1])), space.size)
-    change = np.full((pairs, factors.shape[1]), np.inf)
-    before = np.zeros_like(change)
-    for number in range(iterations_max):
-        values, vectors = space.largest(factors, pairs)
-        if effort.watch_growth:
-            change = np.maximum(change, _expect_more(before, values))
-        before = values
-        searching = (values * LARGEST_FACTOR > 1) | ((number < SEARCH_ITERATIONS) & (values != 0))
-        limit = _limits(values, effort)
-        pair, column = np.nonzero((change > limit) & searching)
-        if not len(pair):
-            break
-        images = space.images(vectors[pair, :, column].T, factors[:, column])
-        better = space.extend(images)
-        energy = (better * images).sum(axis=0) / values[pair, column] ** 2
-        change[pair, column] = np.sqrt(np.maximum(energy - 1, 0))
-    values, vectors = space.largest(factors, 1)
-    compressed = values[0] * LARGEST_FACTOR > 1
-    result = np.where(compressed, 1 / np.where(compressed, values[0], 1.0), np.inf)
-    done = bool(((change[0] <= _limits(values, effort)[0]) | ~compressed).all())
-    modes = space.combine(vectors[0])
-    return BucklingResult(result, modes, change[0], space.solves, done)
+class BucklingSearch:
+    """The search of one stiffness, which a second run takes up where the first one left it.
 
+    Parameters are those of `find_buckling_factors`, `products` in place of a function.
+    """
 
-def _begin(space, factors, start, effort: Effort) -> np.ndarray:
-    """Return the forces (size, k) with which the search begins."""
-    count = effort.random_vectors if start is not None else max(effort.random_vectors, 1)
-    begin = np.random.default_rng(START_SEED).standard_normal((space.size, count))
-    return begin if start is None else np.hstack([begin, -space.apply_mixed(start, factors)])
+    def __init__(self, solve, products: Products, factors: np.ndarray, size: int) -> None:
+        self._first, self._which, self._ratio = _proportional_columns(factors)
+        self._factors = factors[:, self._first]
+        self._space = Subspace(solve, products, len(factors), size)
+        self._random, self._change = 0, np.empty((0, len(self._first)))
+
+    def run(
+        self, effort: Effort, start: np.ndarray | None = None, iterations_max: int = 60
+    ) -> BucklingResult:
+        """Return the least positive factor of each combination.
+
+        start (size, c) are modes of a similar structure, without unit.
+        """
+        self._begin(effort, None if start is None else start[:, self._first])
+        found = self._find(effort, iterations_max)
+        which, ratio = self._which, self._ratio
+        with np.errstate(divide="ignore"):
+            values = np.where(ratio > 0, found.factors[which] / ratio, np.inf)
+        return replace(found, factors=values, modes=found.modes[:, which],
+                       change=found.change[which])  # fmt: skip
+
+    def _begin(self, effort: Effort, start: np.ndarray | None) -> None:
+        """Add the vectors with which the search begins; old changes then say nothing any more."""
+        space = self._space
+        asked = effort.random_vectors if start is not None or space.count else 1
+        asked = max(asked, effort.random_vectors) - self._random
+        forces = []
+        if asked > 0:
+            forces.append(np.random.default_rng(START_SEED).standard_normal((space.size, asked)))
+            self._random += asked
+        if start is not None and not space.count:
+            forces.append(-space.products.mix(start, self._factors))
+        if forces:
+            space.extend(np.hstack(forces))
+            self._change = self._change[:0]
+
+    def _find(self, effort: Effort, iterations_max: int) -> BucklingResult:
+        """Find the factors of combinations none of which is a multiple of another."""
+        space, factors = self._space, self._factors
+        pairs = min(max(effort.pairs, -(-effort.followed // factors.shape[1])), space.size)
+        change = np.full((pairs, factors.shape[1]), np.inf)
+        change[: len(self._change)] = self._change[:pairs]
+        before = np.zeros_like(change)
+        for number in range(iterations_max):
+            values, vectors = space.largest(factors, pairs)
+            if effort.watch_growth:
+                change = np.maximum(change, _expect_more(before, values))
+            before = values
+            searching = values * LARGEST_FACTOR > 1
+            searching |= (number < SEARCH_ITERATIONS) & (values != 0)
+            limit = _limits(values, effort)
+            pair, column = np.nonzero((change > limit) & searching)
+            if not len(pair):
+                break
+            images = space.images(vectors[pair, :, column].T, factors[:, column])
+            better = space.extend(images)
+            energy = (better * images).sum(axis=0) / values[pair, column] ** 2
+            change[pair, column] = np.sqrt(np.maximum(energy - 1, 0))
+        self._change = change
+        return self._report(change[0], effort)
+
+    def _report(self, change: np.ndarray, effort: Effort) -> BucklingResult:
+        space = self._space
+        values, vectors = space.largest(self._factors, 1)
+        compressed = values[0] * LARGEST_FACTOR > 1
+        result = np.where(compressed, 1 / np.where(compressed, values[0], 1.0), np.inf)
+        done = bool(((change <= _limits(values, effort)[0]) | ~compressed).all())
+        return BucklingResult(result, space.combine(vectors[0]), change, space.solves, done)
 
 
 def _expect_more(before: np.ndarray, values: np.ndarray) -> np.ndarray:
@@ -144,8 +175,13 @@ def _expect_more(before: np.ndarray, values: np.ndarray) -> np.ndarray:
 def _limits(values: np.ndarray, effort: Effort) -> np.ndarray:
     """Return the change (pairs, c) at which each mode is known well enough; values are 1/factor."""
     limit = np.full(values.shape, effort.neighbour_tolerance)
-    near = values[0] * NEAR >= values[0].max()
+    largest = values[0].max()
+    near = values[0] * NEAR >= largest
     limit[0] = np.where(near, effort.near_tolerance, effort.far_tolerance)
+    if largest * effort.ample < 1:
+        rough = np.maximum(limit, effort.ample_tolerance)
+        rough[0] = np.where(near, rough[0], np.inf)
+        limit = np.where(values > 0, rough, limit)
     return limit
 
 
@@ -160,128 +196,3 @@ def _proportional_columns(factors: np.ndarray) -> tuple[np.ndarray, np.ndarray, 
     first = same.argmax(axis=1)
     distinct, which = np.unique(first, return_inverse=True)
     return distinct, which, length / np.where(length[first] > 0, length[first], 1)
-
-
-class _Subspace:
-    """A K-orthonormal basis with K_g of every load case projected on it."""
-
-    def __init__(self, solve, apply_cases, apply_mixed, cases: int, size: int) -> None:
-        self._solve, self._apply, self.apply_mixed, self.size = (
-            solve, apply_cases, apply_mixed, size
-        )  # fmt: skip
-        # room for more vectors than most searches need, one vector per row: basis, and K times it
-        self._room = np.empty((2, ROOM, size))
-        self._count = 0
-        self._projected = np.empty((cases, 0, 0))
-        self.solves = 0
-
-    def combine(self, coefficients: np.ndarray) -> np.ndarray:
-        """Return the vectors (size, n) that have coefficients (k, n) in the basis."""
-        return (coefficients.T @ self._room[0, : self._count]).T
-
-    def images(self, coefficients: np.ndarray, factors: np.ndarray) -> np.ndarray:
-        """Return -K_g(N) x (size, n) of vectors with coefficients (k, n), factors (cases, n)."""
-
-        def apply(part: slice) -> np.ndarray:
-            return -self.apply_mixed(self.combine(coefficients[:, part]), factors[:, part])
-
-        parts = divide(coefficients.shape[1], self.size, LEAST_COLUMNS)
-        return _join(list(run_parts(apply, parts)), axis=1)
-
-    def extend(self, forces: np.ndarray) -> np.ndarray:
-        """Add Z = K^-1 forces to the basis; return Z as solved."""
-        solved = self._solve(forces)
-        self.solves += forces.shape[1]
-        old = self._count
-        basis, own_forces = self._room[:2, :old]
-        # rows hold vectors: products of long rows are several times as fast as of long columns
-        vectors, forces = np.array(solved.T, order="C"), np.array(forces.T, order="C")
-        for _ in range(2):
-            energy = _measure_energy(vectors, forces)
-            _take_away(vectors, forces, basis, own_forces)
-            # what is left of a vector of the basis is rounding: made a unit vector it spoils all
-            left = _measure_energy(vectors, forces) > DEPENDENT * energy
-            if not left.all():
-                vectors, forces = vectors[left], forces[left]
-            vectors, forces = _orthonormalise(vectors, forces)
-        if not len(vectors):
-            return solved
-        new = old + len(vectors)
-        while new > self._room.shape[1]:
-            self._room = np.concatenate([self._room, np.empty_like(self._room)], axis=1)
-        self._room[0, old:new], self._room[1, old:new] = vectors, forces
-        self._count = new
-        added = self._project(vectors)
-        grown = np.zeros((len(self._projected), new, new))
-        grown[:, :old, :old] = self._projected
-        grown[:, :, old:] = added
-        grown[:, old:, :old] = added[:, :old].transpose(0, 2, 1)
-        self._projected = grown
-        return solved
-
-    def _project(self, vectors: np.ndarray) -> np.ndarray:
-        """Return K_g of every case between the basis and vectors (k, size): (cases, basis, k)."""
-        basis = self._room[0, : self._count]
-
-        def project(part: slice) -> np.ndarray:
-            return np.stack([basis @ applied for applied in self._apply(vectors[part].T)])
-
-        parts = divide(len(vectors), self.size, LEAST_COLUMNS)
-        return _join(list(run_parts(project, parts)), axis=2)
-
-    def largest(self, factors: np.ndarray, count: int) -> tuple[np.ndarray, np.ndarray]:
-        """Return the largest mu = 1 / lambda (count, c) and their coefficients (count, k, c)."""
-        matrices = -np.einsum("akn,ac->ckn", self._projected, factors)
-        values, vectors = np.linalg.eigh((matrices + matrices.transpose(0, 2, 1)) / 2)
-        count = min(count, values.shape[1])
-        return values[:, : -count - 1 : -1].T, vectors[:, :, : -count - 1 : -1].transpose(2, 1, 0)
-
-
-def _join(parts: list[np.ndarray], axis: int) -> np.ndarray:
-    return parts[0] if len(parts) == 1 else np.concatenate(parts, axis=axis)
-
-
-def _measure_energy(vectors: np.ndarray, forces: np.ndarray) -> np.ndarray:
-    """Return the products (k,) of the long rows of two arrays (k, size)."""
-
-    def measure(part: slice) -> np.ndarray:
-        return np.einsum("ks,ks->k", vectors[:, part], forces[:, part])
-
-    return reduce(np.add, run_parts(measure, divide_rows(vectors.shape[1], vectors.shape[1])))
-
-
-def _multiply(one: np.ndarray, other: np.ndarray) -> np.ndarray:
-    """Return one other^T (k, n) of long rows; those of large meshes are summed part by part."""
-    parts = divide_rows(one.shape[1], one.shape[1])
-    return reduce(np.add, run_parts(lambda part: one[:, part] @ other[:, part].T, parts))
-
-
-def _take_away(vectors, forces, basis, own_forces) -> None:
-    """Take from vectors and forces (k, size) what they have of the basis, in place."""
-    overlap = _multiply(vectors, own_forces)
-
-    def subtract(part: slice) -> None:
-        vectors[:, part] -= overlap @ basis[:, part]
-        forces[:, part] -= overlap @ own_forces[:, part]
-
-    list(run_parts(subtract, divide_rows(vectors.shape[1], vectors.shape[1])))
-
-
-def _orthonormalise(vectors: np.ndarray, forces: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Make vectors forces^T (= Z K Z^T, rows Z) the identity, leaving out dependent directions.
-
-    In place: what was handed over is not to be used again.
-    """
-    gram = _multiply(vectors, forces)
-    scale = 1 / np.sqrt(np.maximum(np.diag(gram), 1e-300))
-    values, rotation = np.linalg.eigh((gram + gram.T) / 2 * scale * scale[:, None])
-    keep = values > 1e-12
-    mix = (scale[:, None] * rotation[:, keep] / np.sqrt(values[keep])).T
-    kept = len(mix)
-
-    def turn(part: slice) -> None:
-        vectors[:kept, part] = mix @ vectors[:, part]
-        forces[:kept, part] = mix @ forces[:, part]
-
-    list(run_parts(turn, divide_rows(vectors.shape[1], vectors.shape[1])))
-    return vectors[:kept], forces[:kept]

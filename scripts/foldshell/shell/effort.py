@@ -8,6 +8,8 @@ would stay hidden, which is why random vectors come in wherever that could matte
 
 from dataclasses import dataclass, replace
 
+import numpy as np
+
 
 @dataclass(frozen=True)
 class Effort:
@@ -22,6 +24,9 @@ class Effort:
     far_tolerance : the same for factors above `NEAR` times the least one
     neighbour_tolerance : change at which all but the first mode of a combination count as found;
         they are followed only to keep the first from settling on a mode that is not the lowest
+    ample : least factor of all from which tolerances are `ample_tolerance` at least, and modes of
+        factors above `NEAR` times the least one are left as they are
+    ample_tolerance : change of a mode at which a factor far above all limits counts as found
     second_order_tolerance : least relative change of displacement at which second order ends; the
         setting counts where it is larger
     watch_growth : count a mode as found only once its factor has stopped falling as the space grows
@@ -34,6 +39,8 @@ class Effort:
     near_tolerance: float = 1e-2
     far_tolerance: float = 1e-2
     neighbour_tolerance: float = 0.2
+    ample: float = np.inf
+    ample_tolerance: float = 0.0
     second_order_tolerance: float = 0.0
     watch_growth: bool = True
     check_mechanism: bool = True
@@ -55,7 +62,9 @@ KNOWN = replace(USUAL, random_vectors=0, followed=1, pairs=1)
 START = Effort(far_tolerance=0.3, second_order_tolerance=1e-4)
 """Inside a loop where the modes of the analysis before cannot be relied on."""
 
-COLD = replace(START, near_tolerance=3e-2, neighbour_tolerance=0.5)
+COLD = replace(
+    START, near_tolerance=3e-2, neighbour_tolerance=0.5, ample=40.0, ample_tolerance=0.08
+)
 """At the begin of a loop, where factors are far above all limits; where not, `START` follows."""
 
 WARM = replace(
@@ -63,3 +72,9 @@ WARM = replace(
 )
 """Inside a loop from the modes of the analysis before. Elements keep their matrices and change
 their thickness by little, so there is no mechanism where there was none."""
+
+TRACKED = replace(WARM, ample=4.0, ample_tolerance=0.05)
+"""The same where nothing but comparisons is taken from factors. While all of them are far above
+their limits, two inverse iterations keep the lowest modes on their way; what is then said of
+factors is an upper bound, less than 1 % high as a rule, up to 7 % where another mode becomes the
+lowest. That none falls below its limit unseen is for the bound by random vectors."""

@@ -6,13 +6,11 @@ Slopes are taken along the two directions of the reference triangle, the same fo
 and N is pulled back to them.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
 
-from foldshell.files.threads import LARGE
 from foldshell.shell.nodal import gather_forces
 from foldshell.shell.reference import orthonormal_basis, reference_triangle, triangle_quadrature
 from foldshell.shell.stiffness import ShellOperators
@@ -85,52 +83,63 @@ class GeometricProducts:
         self._mesh, self._matrices = operators.mesh, _element_matrices(operators, force)
         self._moving = np.flatnonzero(dofs < 3 * len(self._mesh.nodes))
         self._translations = dofs[self._moving]
+        row = np.full(3 * len(self._mesh.nodes), -1)
+        row[self._translations] = self._moving
+        # row of each node displacement of an element among the vectors, and whether it has one
+        place = row.reshape(-1, 3)[self._mesh.elements].reshape(len(self._mesh.elements), -1)
+        self._place, self._moves = place, place >= 0
 
     def __call__(self, vectors: np.ndarray) -> np.ndarray:
-        """Return K_g of each case times vectors (size, k), (cases, size, k)."""
-        return np.stack(list(self.each(vectors)))
-
-    def each(self, vectors: np.ndarray) -> Iterator[np.ndarray]:
-        """Return K_g of each case times vectors (size, k), one case after the other: less memory.
+        """Return K_g of each case times vectors (size, k), (cases, size, k).
 
         In kN/m times the unit of the vectors.
         """
-        mesh, count = self._mesh, vectors.shape[1]
-        local = self._gather(vectors).reshape(len(mesh.nodes), 3 * count)[mesh.elements]
-        for matrix in self._matrices:
-            own = np.zeros(vectors.shape)
-            self._scatter(np.matmul(matrix, local).reshape(-1, 3 * count), own)
-            yield own
+        share, count = np.eye(len(self._matrices)), vectors.shape[1]
+        return np.stack(
+            [self.mix(vectors, np.repeat(one[:, None], count, axis=1)) for one in share]
+        )
+
+    def project(self, vectors: np.ndarray, chosen: slice) -> np.ndarray:
+        """Return v_i^T K_g v_j of each case for all i and the chosen j, (cases, k, chosen).
+
+        Vectors (k, size) stand in rows. Products stay within a chunk of elements: nothing of the
+        size of the vectors is written. In kN/m times the square of the unit of the vectors.
+        """
+        count, few = len(vectors), len(range(*chosen.indices(len(vectors))))
+        found = np.zeros((len(self._matrices), count, few))
+        for start in range(0, len(self._place), CHUNK):
+            part = slice(start, start + CHUNK)
+            every = vectors[:, self._place[part].ravel()] * self._moves[part].ravel()
+            local = every[chosen].T.reshape(len(self._place[part]), -1, 3 * few)
+            for case, matrix in enumerate(self._matrices[:, part]):
+                found[case] += every @ np.matmul(matrix, local).reshape(-1, few)
+        return found
 
     def mix(self, vectors: np.ndarray, factors: np.ndarray) -> np.ndarray:
         """Return K_g of the combination (cases, k) of each column times it, (size, k).
 
         Factors without unit; vectors and results in any, and kN/m times it.
         """
-        mesh, count = self._mesh, vectors.shape[1]
-        moved = self._gather(vectors).reshape(-1, 3, count).swapaxes(1, 2).copy()
-        cases, elements, nodes, _ = self._matrices.shape
-        element, shares = np.empty((elements, nodes, 3, count)), factors.T.copy()
-        for start in range(0, elements, CHUNK):
+        elements, count = self._mesh.elements, vectors.shape[1]
+        moved = self._gather(vectors).reshape(len(self._mesh.nodes), -1)
+        shares = np.tile(factors, 3)
+        element = np.empty((*elements.shape, 3 * count))
+        for start in range(0, len(elements), CHUNK):
             part = slice(start, start + CHUNK)
-            own = self._matrices[:, part].reshape(cases, -1)
-            # one product for all is quicker, but ends in other digits
-            mixed = shares @ own if len(vectors) >= LARGE else np.stack([s @ own for s in shares])
-            local = moved[mesh.elements[part]].transpose(2, 0, 1, 3)
-            pushed = np.matmul(mixed.reshape(count, -1, nodes, nodes), local)
-            element[part] = pushed.transpose(1, 2, 3, 0)
+            local = moved[elements[part]]
+            pushed = np.matmul(self._matrices[0, part], local * shares[0])
+            for matrix, share in zip(self._matrices[1:, part], shares[1:], strict=True):
+                pushed += np.matmul(matrix, local * share)
+            element[part] = pushed
         result = np.zeros(vectors.shape)
-        self._scatter(element.reshape(-1, 3 * count), result)
+        total = self._mesh.node_sum.add(element.reshape(-1, 3 * count)).reshape(-1, count)
+        result[self._moving] = total[self._translations]
         return result
 
     def _gather(self, vectors: np.ndarray) -> np.ndarray:
         full = np.zeros((3 * len(self._mesh.nodes), vectors.shape[1]))
         full[self._translations] = vectors[self._moving]
         return full
-
-    def _scatter(self, pushed: np.ndarray, result: np.ndarray) -> None:
-        total = self._mesh.node_sum.add(pushed).reshape(-1, result.shape[1])
-        result[self._moving] = total[self._translations]
 
 
 def _element_matrices(operators: ShellOperators, force: np.ndarray) -> np.ndarray:

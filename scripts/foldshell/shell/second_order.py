@@ -17,8 +17,8 @@ DEPTH = 6
 
 @dataclass(frozen=True)
 class SecondOrderResult:
-    """Displacements (free, c), iterations, the relative change of each column (c,) that one more
-    iteration is expected to bring, and whether every column met the tolerance."""
+    """Displacements (free, c), most iterations of a column, the relative change of each column (c,)
+    that one more iteration is expected to bring, and whether every column met the tolerance."""
 
     displacement: np.ndarray
     iterations: int
@@ -44,36 +44,90 @@ def solve_second_order(
     iterations_max : limit on evaluations of `correction`
     start : (free, c) displacements near the answer to begin with, by default those of first order
     """
-    current = (first_order if start is None else start).copy()
-    residual = np.full(first_order.shape[1], np.inf)
-    changes = np.full((3, first_order.shape[1]), np.inf)
-    memory = [_AndersonColumn() for _ in range(first_order.shape[1])]
-    iterations = 0
+    search = SecondOrderSearch(first_order, correction, start=start)
+    return search.run(tolerance, iterations_max)
 
-    def advance(one: tuple[int, np.ndarray]) -> None:
-        """Take the step to the image (free,) of a column."""
+
+class SecondOrderSearch:
+    """The iteration of `solve_second_order`, which a second run takes up where the first left it.
+
+    `begin` (free, c) is the correction of the first-order state, None where it is not known yet;
+    `start` (free, c) where it begins, None for the first-order state.
+    """
+
+    def __init__(
+        self,
+        first_order,
+        correction,
+        begin: np.ndarray | None = None,
+        start: np.ndarray | None = None,
+    ) -> None:
+        self._correction, count = correction, first_order.shape[1]
+        # displacements stand in rows: sums over long columns of an array would skip through it
+        self._first = np.array(first_order.T, order="C")
+        self._begin = None if begin is None else begin.T
+        self._current = self._first.copy() if start is None else np.array(start.T, order="C")
+        self._changes = np.full((3, count), np.inf)
+        self._memory = [_AndersonColumn() for _ in range(count)]
+        self._iterations = np.zeros(count, dtype=int)
+
+    def run(
+        self, tolerance: float, iterations_max: int = 60, rates: np.ndarray | None = None
+    ) -> SecondOrderResult:
+        """Iterate until every column meets the tolerance, each as often as it would alone.
+
+        `rates` (c,) without unit are those at which changes are known to fall; they stand in for
+        rates that have not been seen yet.
+        """
+        residual = self._expect(rates)
+        while np.isfinite(self._current).all():
+            active = ~(residual <= tolerance) & (self._iterations < iterations_max)
+            if not active.any():
+                break
+            self._advance(np.flatnonzero(active))
+            residual = self._expect(rates)
+        met = bool((residual <= tolerance).all())
+        times = int(self._iterations.max(initial=0))
+        return SecondOrderResult(self._current.T.copy(), times, residual, met)
+
+    def _advance(self, active: np.ndarray) -> None:
+        """Take one step of the active columns (k,), numbers of columns."""
+        if self._begin is None:
+            image = self._correction(self._current[active].T, active).T
+        else:
+            image, self._begin = self._begin[active], None
+        image = self._first[active] + image
+        self._iterations[active] += 1
+        list(run_parts(self._take_step, list(zip(active, image, strict=True))))
+
+    def _take_step(self, one: tuple[int, np.ndarray]) -> None:
+        """Go from the state of a column towards its image (free,)."""
         column, image = one
-        step = image - current[:, column]
+        current = self._current[column]
+        step = image - current
         scale = np.abs(image).max() or 1.0
-        changes[:, column] = [*changes[1:, column], np.abs(step).max() / scale]
-        residual[column] = _expect_change(*changes[:, column])
-        current[:, column] = memory[column].advance(current[:, column], step)
+        self._changes[:, column] = [*self._changes[1:, column], np.abs(step).max() / scale]
+        self._current[column] = self._memory[column].advance(current, step)
 
-    while iterations < iterations_max:
-        active = np.flatnonzero(~(residual <= tolerance))
-        if not len(active) or not np.isfinite(current).all():
-            break
-        image = first_order[:, active] + correction(current[:, active], active)
-        iterations += 1
-        list(run_parts(advance, list(zip(active, image.T, strict=True))))
-    return SecondOrderResult(current, iterations, residual, bool((residual <= tolerance).all()))
+    def _expect(self, rates: np.ndarray | None) -> np.ndarray:
+        """Return the changes (c,) that one more iteration would bring."""
+        every = np.full(len(self._first), np.nan) if rates is None else rates
+        pairs = zip(self._changes.T.tolist(), every.tolist(), strict=True)
+        return np.array([_expect_change(*changes, rate) for changes, rate in pairs])
 
 
-def _expect_change(first: float, second: float, third: float) -> float:
-    """Return the change that follows three others; the last one while fewer are known."""
-    if not np.isfinite(first) or third == 0:
+def _expect_change(first: float, second: float, third: float, rate: float) -> float:
+    """Return the change that follows three others.
+
+    While fewer are known it is the last one, or that times the known rate where there is one.
+    """
+    if third == 0 or not np.isfinite(third):
         return third
-    return third * min(1.0, max(second / first, third / second))
+    if np.isfinite(first):
+        return third * min(1.0, max(second / first, third / second))
+    if not np.isfinite(rate):
+        return third
+    return third * min(1.0, max(rate, third / second if np.isfinite(second) else 0.0))
 
 
 class _AndersonColumn:

@@ -5,6 +5,7 @@ of the orthonormal basis, load columns. Forces in kN/m, moments in kNm/m, stress
 """
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -154,6 +155,15 @@ def sample_points(cells: int) -> np.ndarray:
     return centroids[:, None] + sign * inner / cells
 
 
+@lru_cache(maxsize=8)
+def sample_basis(order: int, cells: int) -> np.ndarray:
+    """Return the orthonormal functions (cells^2 s^2, m) at the sample points of an element.
+
+    Without unit.
+    """
+    return orthonormal_basis(order - 1, sample_points(cells).reshape(-1, 2))
+
+
 def evaluate(operators: ShellOperators, coefficients: np.ndarray, points: np.ndarray) -> np.ndarray:
     """Evaluate (E, 3, m, c) at reference points (q, 2): (E, q, c, 3)."""
     psi = orthonormal_basis(operators.mesh.order - 1, points)
@@ -168,16 +178,17 @@ def surface_stresses(force: np.ndarray, moment: np.ndarray, thickness: np.ndarra
 
 
 def outer_stresses(
-    operators: ShellOperators, resultants: StressResultants, thickness: np.ndarray, points
+    resultants: StressResultants, thickness: np.ndarray, basis: np.ndarray
 ) -> np.ndarray:
-    """Return N/t -+ 6M/t^2 at reference points (q, 2): (2, 3, c, E, q) kPa, top and bottom.
+    """Return N/t -+ 6M/t^2 where the functions are `basis` (q, m): (2, 3, c, E, q) kPa.
 
-    A convex function of stress is nowhere larger at the middle surface, the mean of these two.
+    Of the top and the bottom; thickness (E,) m. A convex function of stress is nowhere larger at
+    the middle surface, the mean of these two.
     """
     t = thickness[:, None, None, None]
     membrane, bending = resultants.force / t, 6 * resultants.moment / t**2
     both = np.stack([membrane - bending, membrane + bending]).transpose(0, 2, 4, 1, 3)
-    return both @ orthonormal_basis(operators.mesh.order - 1, points).T
+    return both @ basis.T
 
 
 def _apply_elasticity(operators: ShellOperators, strain: np.ndarray) -> np.ndarray:

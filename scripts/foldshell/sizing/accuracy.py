@@ -13,7 +13,7 @@ import numpy as np
 from foldshell.records.analysis import AnalysisRecord
 from foldshell.records.analysis_arrays import AnalysisArrays
 from foldshell.settings.sizing import Sizing
-from foldshell.shell.effort import COLD, START, USUAL, WARM, Effort
+from foldshell.shell.effort import COLD, START, TRACKED, USUAL, WARM, Effort
 
 COMPARING = ("dead_band", "fully_stressed")
 """Rules that take nothing but comparisons from an analysis; others get all digits of it."""
@@ -52,7 +52,9 @@ def choose_effort(
     if sizing.rule not in COMPARING + BY_UTILIZATION:
         return USUAL
     effort = _choose_search(sizing, thickness, previous, arrays, edited)
-    return effort if sizing.rule in COMPARING else replace(effort, second_order_tolerance=0.0)
+    if sizing.rule in BY_UTILIZATION:
+        return replace(effort, second_order_tolerance=0.0, ample=np.inf)
+    return _scale_ample(sizing, TRACKED if effort is WARM else effort)
 
 
 def _choose_search(sizing, thickness, previous, arrays, edited) -> Effort:
@@ -64,6 +66,12 @@ def _choose_search(sizing, thickness, previous, arrays, edited) -> Effort:
     change = np.abs(thickness / arrays.thickness - 1).max()
     bound = bound_hidden_factor(previous, thickness, arrays.thickness)
     return START if change > LARGE_STEP or bound < _careful(sizing) else WARM
+
+
+def _scale_ample(sizing: Sizing, effort: Effort) -> Effort:
+    """Count as ample what is so far above the limits of these settings as above the usual ones."""
+    scale = _careful(sizing) / HIDDEN_FACTOR
+    return effort if scale == 1 else replace(effort, ample=effort.ample * scale)
 
 
 def bound_hidden_factor(

@@ -123,13 +123,15 @@ def _analyse_in_loop(case: AnalysisCase, task: IterationTask) -> Analysed:
     sizing, analysis = case.sizing, prepare_analysis(case, task)
     modes, edited = task.modes, bool(task.edited_panels)
     effort = choose_effort(sizing, task.thickness, task.previous, task.previous_arrays, edited)
+    if case.options.imperfection:
+        effort = FULL  # a mode is part of the shape, and its digits are in every utilization
     result = analysis.run(effort, modes)
     careful = replace(START, second_order_tolerance=effort.second_order_tolerance)
-    if effort not in (careful, USUAL) and is_doubtful(sizing, result.least_factor):
+    if effort not in (careful, USUAL, FULL) and is_doubtful(sizing, result.least_factor):
         effort = careful
         result = analysis.run(effort, result.buckling.modes)
     done = evaluate(case, task, result, effort)
-    if effort is USUAL and _goes_on(done):
+    if effort is FULL or (effort is USUAL and _goes_on(done)):
         return done
     rough = effort.second_order_tolerance > 0 and done.utilization is not None
     if rough and _is_close(done) and _goes_on(done):

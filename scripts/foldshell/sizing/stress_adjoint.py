@@ -5,9 +5,8 @@ import numpy as np
 from foldshell.checks.measures import StressState
 from foldshell.checks.strength import CRITERIA
 from foldshell.checks.utilization import Utilization
-from foldshell.shell.reference import orthonormal_basis
 from foldshell.shell.results import panel_area
-from foldshell.shell.stress import sample_points, surface_stresses
+from foldshell.shell.stress import sample_basis, surface_stresses
 from foldshell.sizing.adjoint import AdjointModel
 from foldshell.sizing.strip_adjoint import BLOCK, gradient_of_strips, slope_of_criterion
 
@@ -75,7 +74,7 @@ def _stress_slopes(adjoint, elements: np.ndarray, strength: int):
     """Return at the governing combination and surface of each sample point, (E', points, ...):
     d(criterion)/d(stress) 1/kPa, the bending stress kPa, the combination, the surface -1, 0, 1."""
     mesh, material = adjoint.model.mesh, adjoint.material
-    psi = orthonormal_basis(mesh.order - 1, sample_points(mesh.cells).reshape(-1, 2))
+    psi = sample_basis(mesh.order, mesh.cells)
     own = adjoint.thickness[elements]
     force, moment = (
         np.einsum("qm,ecmk->eqkc", psi, part[elements][..., :strength], optimize=True)
@@ -96,7 +95,7 @@ def _strain_slopes(adjoint, elements, slope, surface, used):
     """Return dg/d(eps) and dg/d(kappa) of elements by combination, (E', 3, m, c) each, for
     weighted stress slopes: sigma = N / t + 6 s M / t^2, N = E t D eps, M = E t^3 / 12 D kappa."""
     mesh, operators = adjoint.model.mesh, adjoint.model.operators
-    psi = orthonormal_basis(mesh.order - 1, sample_points(mesh.cells).reshape(-1, 2))
+    psi = sample_basis(mesh.order, mesh.cells)
     strain = adjoint.material.youngs_modulus * slope @ operators.elasticity
     bent = strain * (surface * adjoint.thickness[elements][:, None] / 2)[..., None]
     return tuple(
