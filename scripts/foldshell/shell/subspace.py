@@ -45,11 +45,17 @@ class Subspace:
         self.solves = 0
 
     def combine(self, coefficients: np.ndarray) -> np.ndarray:
-        """Return the vectors (size, n) that have coefficients (k, n) in the basis."""
+        """Return the vectors (size, n) that have coefficients (k, n) in the basis.
+
+        Coefficients without unit, vectors in that of the basis.
+        """
         return (coefficients.T @ self._room[0, : self.count]).T
 
     def images(self, coefficients: np.ndarray, factors: np.ndarray) -> np.ndarray:
-        """Return -K_g(N) x (size, n) of vectors with coefficients (k, n), factors (cases, n)."""
+        """Return -K_g(N) x (size, n) of vectors with coefficients (k, n), factors (cases, n).
+
+        Coefficients and factors without unit, results in kN/m times the unit of the basis.
+        """
 
         def apply(part: slice) -> np.ndarray:
             return -self.products.mix(self.combine(coefficients[:, part]), factors[:, part])
@@ -58,7 +64,10 @@ class Subspace:
         return _join(list(run_parts(apply, parts)), axis=1)
 
     def extend(self, forces: np.ndarray) -> np.ndarray:
-        """Add Z = K^-1 forces to the basis; return Z as solved."""
+        """Add Z = K^-1 forces (size, k) to the basis; return Z as solved.
+
+        Forces in kN and kNm, the result in m and rad.
+        """
         solved = self._solve(forces)
         self.solves += forces.shape[1]
         old = self.count
