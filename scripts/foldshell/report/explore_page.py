@@ -13,6 +13,7 @@ from foldshell.records.summary import SummaryRow
 from foldshell.report.markup import Cell, Table, make_table, render
 from foldshell.settings.design import COLUMNS
 from foldshell.settings.exploration import AIMS, Exploration
+from foldshell.settings.sizing import REINFORCED
 from foldshell.settings.stage import flatten, to_plain
 
 WORDS = {
@@ -97,6 +98,7 @@ def make_explore_page(
         bounds=find_bounds(exploration, kept[:1]),
         confirmed=_tabulate_confirmed(confirmed),
         bias=say_bias(confirmed),
+        reinforced=exploration.search.measure == REINFORCED,
         excluded=[(name, count) for name, count in count_broken(records).items()],
         variables=[(WORDS.get(v.name, v.name), ", ".join(v.choices) or f"{v.low:g} to {v.high:g}")
                    for v in exploration.variables],
