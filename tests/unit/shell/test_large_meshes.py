@@ -7,7 +7,7 @@ from foldshell.files import threads
 from foldshell.loads.cases import make_load_cases
 from foldshell.settings.loads import Combinations, Loads
 from foldshell.settings.material import Material
-from foldshell.shell import assembly, buckling, geometric, linear_solver
+from foldshell.shell import assembly, linear_solver, subspace
 from foldshell.shell.analysis import analyse_shell, build_model
 from foldshell.shell.dissection import rank_by_dissection
 from foldshell.shell.mesh import build_mesh
@@ -29,10 +29,10 @@ def folded_mesh(rows: int, columns: int, turned: float = 0.0):
 @pytest.fixture
 def counts_as_large(monkeypatch):
     """Let every mesh be worked on as large ones are, with short parts."""
-    for module in (threads, assembly, geometric, linear_solver):
+    for module in (threads, assembly, linear_solver):
         monkeypatch.setattr(module, "LARGE", 100)
     whole = threads.divide_rows
-    for module in (assembly, buckling):
+    for module in (assembly, subspace):
         monkeypatch.setattr(module, "divide_rows", lambda count, size, _=0: whole(count, size, 37))
     yield
     threads.use_threads(1)
