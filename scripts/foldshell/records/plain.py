@@ -1,6 +1,7 @@
 """Between records and plain data: every value is checked against the type of its field."""
 
 import dataclasses
+import math
 import sys
 import typing
 from collections.abc import Mapping
@@ -11,6 +12,8 @@ from foldshell.records.entry import Entry, entries, strip_null
 from foldshell.settings.nearest import hint_nearest
 
 Record = TypeVar("Record")
+PLAIN = {float, int, str, bool, type(None)}
+"""Types whose values are plain data already."""
 WORDS = {float: "a number", int: "a whole number", str: "a text", bool: "true or false"}
 
 
@@ -47,7 +50,8 @@ def _to_value(value: Any) -> Any:
     if isinstance(value, Mapping):
         return {key: _to_value(item) for key, item in value.items()}
     if isinstance(value, tuple | list):
-        return [_to_value(item) for item in value]
+        # long lists of numbers are the rule: they hold nothing to turn
+        return list(value) if set(map(type, value)) <= PLAIN else [_to_value(one) for one in value]
     return value
 
 
@@ -106,9 +110,17 @@ def _check_list(inner: tuple, value: Any, place: str, closed: bool) -> tuple:
     if not isinstance(value, list | tuple) or fixed not in (None, len(value)):
         words = "a list" if fixed is None else f"a list of {fixed}"
         raise DamageError(f"{place}: {_shorten(value)}: must be {words}")
+    if fixed is None and inner[0] in WORDS and _are_all(inner[0], value):
+        return tuple(value)
     hints = inner if fixed is not None else inner[:1] * len(value)
     pairs = enumerate(zip(hints, value, strict=True))
     return tuple(_check(hint, item, f"{place}[{k}]", closed) for k, (hint, item) in pairs)
+
+
+def _are_all(kind: type, values: Any) -> bool:
+    """Tell at once whether all values of a list are of the kind wanted, and finite."""
+    same = all(type(value) is kind for value in values)
+    return same and (kind is not float or all(map(math.isfinite, values)))
 
 
 def _check_names(hint: Any, value: Any, place: str, closed: bool) -> dict:
