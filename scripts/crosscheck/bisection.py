@@ -53,6 +53,9 @@ def _bisect(
     count = len(facets)
     if count == 1:
         return int(facets[0])
+    if count == 2:
+        first, second = facets[np.argsort(keys[facets, 0], kind="stable")].tolist()
+        return first, second
     order = facets[np.argsort(keys[facets], axis=0, kind="stable")]
     best, cut, line = np.inf, count // 2, order[:, 0]
     least = max(1, round(BALANCE * count))
