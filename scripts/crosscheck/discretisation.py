@@ -30,12 +30,19 @@ class Discretisation:
     plan: Plan
 
     @cached_property
+    def spreading(self) -> csr_matrix:
+        """Takes equations to local unknowns of outlines, by `turn`: (60 F m, size)."""
+        local, axis = np.nonzero(self.turn.reshape(-1, 6))
+        place = np.broadcast_to(self.equations[:, :, None], self.turn.shape).reshape(-1, 6)
+        free = place[local, axis] >= 0
+        local, axis = local[free], axis[free]
+        values = self.turn.reshape(-1, 6)[local, axis]
+        return csr_matrix((values, (local, place[local, axis])), (place.shape[0], self.size))
+
+    @cached_property
     def gathering(self) -> csr_matrix:
-        """Sums outline unknowns (72 F m) into equations: (size, 72 F m), ones alone."""
-        place = self.equations.ravel()
-        used = np.flatnonzero(place >= 0)
-        ones = np.ones(len(used))
-        return csr_matrix((ones, (place[used], used)), (self.size, len(place)))
+        """Sums local loads on outlines into the equations: its transpose, (size, 60 F m)."""
+        return self.spreading.T.tocsr()
 
 
 def plan_facets(vertices: np.ndarray, facets: np.ndarray) -> Plan:

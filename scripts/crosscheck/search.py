@@ -57,7 +57,7 @@ def _pick_cases(whole: Solution, part: slice) -> Solution:
     if part == slice(0, whole.local.shape[-1]):
         return whole
     local = np.ascontiguousarray(whole.local[..., part])
-    return replace(whole, local=local, outline=whole.outline[..., part], load=whole.load[..., part])
+    return replace(whole, local=local, found=whole.found[..., part], load=whole.load[..., part])
 
 
 def run_alone(system: System, steps: Steps) -> object:

@@ -211,21 +211,21 @@ def solve_local(system: System, local: np.ndarray) -> Response:
 
 @dataclass(frozen=True)
 class Solution:
-    """Local values at all facet nodes; global values and condensed loads on the outline."""
+    """Local values at all facet nodes, the equations, and local condensed loads on outlines."""
 
     local: np.ndarray  # (F, R, 5, c)
-    outline: np.ndarray  # (F, 12m, 6, c)
-    load: np.ndarray  # (F, 12m, 6, c)
+    found: np.ndarray  # (size, c)
+    load: np.ndarray  # (F, 12m, 5, c)
 
 
 def complete_response(system: System, solution: Solution) -> Response:
     """Global displacements and reactions, which an iteration needs once only."""
-    state = place_state(system, solution.local)
-    return Response(
-        state.local,
-        state.displacement,
-        find_reactions(system.grid, system.holding, solution.outline, solution.load),
-    )
+    state, grid = place_state(system, solution.local), system.grid
+    held = np.zeros((1, solution.found.shape[1]))
+    outline = np.concatenate([solution.found, held])[grid.equations]
+    load = np.swapaxes(grid.turn, -1, -2) @ solution.load
+    reactions = find_reactions(grid, system.holding, outline, load)
+    return Response(state.local, state.displacement, reactions)
 
 
 def place_state(system: System, local: np.ndarray) -> State:
@@ -243,10 +243,9 @@ def solve_facets(system: System, local: np.ndarray) -> Solution:
     count, places, _, cases = local.shape
     membrane = reduce_load(system.membrane, local[:, :, :2].reshape(count, -1, cases))
     plate = reduce_load(system.plate, local[:, :, 2:].reshape(count, -1, cases))
-    load = np.swapaxes(grid.turn, -1, -2) @ _join(membrane, plate, outline)
-    found = np.vstack([system.factor.solve(_gather(grid, load)), np.zeros((1, cases))])
-    found = found[grid.equations]
-    values = grid.turn @ found
+    load = _join(membrane, plate, outline)
+    found = system.factor.solve(grid.gathering @ load.reshape(-1, cases))
+    values = (grid.spreading @ found).reshape(load.shape)
     full = _join(
         recover_facets(system.membrane, membrane, values[:, :, :2].reshape(count, -1, cases)),
         recover_facets(system.plate, plate, values[:, :, 2:].reshape(count, -1, cases)),
@@ -260,8 +259,3 @@ def _join(membrane: np.ndarray, plate: np.ndarray, nodes: int) -> np.ndarray:
     count, cases = len(membrane), membrane.shape[-1]
     in_plane = membrane[:, : 2 * nodes].reshape(count, nodes, 2, cases)
     return np.concatenate([in_plane, plate[:, : 3 * nodes].reshape(count, nodes, 3, cases)], axis=2)
-
-
-def _gather(grid: Discretisation, outline: np.ndarray) -> np.ndarray:
-    """Sum outline values (F, 12m, 6, c) into the equations: (size, c)."""
-    return grid.gathering @ outline.reshape(-1, outline.shape[-1])
