@@ -219,7 +219,7 @@ def _analyse(design: DesignOnMeshes, mesh, run, start) -> _Found:
         for name, second in _measure(model, result, thickness, material, arrays).items():
             values[name] = replace(values[name], second_order=second)
     steel = {}
-    if design.concrete is not None:
+    if design.concrete is not None and not is_curved(folded):
         own = design.panel_thickness, material, design.concrete
         steel = measure_reinforced(model, result, *own)
     return _Found(values, remember(model, result), steel)

@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from foldshell.checks.concrete import envelope
 from foldshell.checks.concrete.layout import describe_fit, lay_out, refuse_layout
 from foldshell.checks.concrete.model import build_concrete_model
 from foldshell.checks.concrete.quantities import Quantities, sum_cost, sum_emissions, sum_steel
@@ -44,6 +45,17 @@ def test_uniform_tension_gives_every_panel_its_steel():
     assert (found.combination[:, :2] == 0).all()
     assert found.shares[:, 2] == pytest.approx(0, abs=1e-9)
     assert found.steel.ratio_use == pytest.approx(2 * needed[0, 0] / (0.04 * 0.1))
+
+
+def test_combinations_in_parts_are_those_of_all_at_once(monkeypatch):
+    """Of a large shell some combinations at a time fit into memory: the same bits."""
+    whole = make_state((100.0, 50.0, 20.0))
+    monkeypatch.setattr(envelope, "NUMBERS", 1)
+    parts = make_state((100.0, 50.0, 20.0))
+    for name in ("needed", "strut_use", "fit_use", "cracked"):
+        assert (getattr(parts.steel, name) == getattr(whole.steel, name)).all()
+    assert (parts.combination == whole.combination).all()
+    assert (parts.shear.size == whole.shear.size).all()
 
 
 def test_cracked_panels_get_least_steel_and_thin_ones_one_mesh():

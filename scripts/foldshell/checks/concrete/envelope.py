@@ -1,10 +1,15 @@
 """Largest means of each panel, and where and under which combination they stand."""
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from foldshell.checks.concrete.sampling import Sampling
+from foldshell.shell.stress import StressResultants
+
+NUMBERS = 30_000_000
+"""Values at points that are held at a time, 240 MB: of large shells some combinations only."""
 
 
 @dataclass(frozen=True)
@@ -15,6 +20,22 @@ class Envelope:
     value: np.ndarray
     row: np.ndarray
     combination: np.ndarray
+
+
+def split_combinations(
+    sampling: Sampling, resultants: StressResultants, width: int
+) -> Iterator[StressResultants]:
+    """Yield combinations in parts of which `width` values at all points fit into memory.
+
+    resultants (E, 3, m, c) kN/m and kNm/m.
+    """
+    elements, columns = resultants.force.shape[0], resultants.force.shape[-1]
+    size = max(1, NUMBERS // (elements * len(sampling.points) * width))
+    for start in range(0, columns, size):
+        part = slice(start, start + size)
+        yield replace(
+            resultants, force=resultants.force[..., part], moment=resultants.moment[..., part]
+        )
 
 
 def take_means(sampling: Sampling, values: np.ndarray) -> np.ndarray:

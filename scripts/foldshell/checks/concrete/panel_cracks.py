@@ -9,7 +9,12 @@ from foldshell.checks.concrete.cracking import (
     mean_strain,
 )
 from foldshell.checks.concrete.demand import find_demand
-from foldshell.checks.concrete.envelope import Envelope, find_envelope, take_means
+from foldshell.checks.concrete.envelope import (
+    Envelope,
+    find_envelope,
+    split_combinations,
+    take_means,
+)
 from foldshell.checks.concrete.model import ConcreteModel
 from foldshell.checks.concrete.panels import PanelSteel
 from foldshell.checks.concrete.sampling import find_basis, sample, turn_resultants
@@ -30,18 +35,29 @@ def find_crack_widths(
     resultants (E, 3, m, c) kN/m and kNm/m of quasi-permanent combinations.
     """
     own = np.append(steel.thickness, 1.0)[np.minimum(model.mesh.panel, model.panels)]
-    basis = find_basis(model.operators, model.local)
-    force, moment = (sample(basis, one) for one in turn_resultants(model.local, resultants))
-    demand = find_demand(force, moment, own, model.layout, model.asked.central_lever_ratio)
-    flat = demand.steel.reshape(*demand.steel.shape[:3], 4)
-    apart = [np.moveaxis(one, 0, -1) for one in (force, moment)]
-    means = take_means(model.local, np.concatenate([flat, *apart], axis=-1))
+    parts = split_combinations(model.local, resultants, 10)
+    means = np.concatenate([_mean_forces(model, part, own) for part in parts], axis=1)
     rows = np.flatnonzero(model.local.panel < model.panels)
     panel, means = model.local.panel[rows], means[rows]
     pulled = means[..., :4].reshape(*means.shape[:2], 2, 2)
     angle = _crack_angles(means[..., 4:7], means[..., 7:10], steel.thickness[panel])
     width = _widen(model, steel, panel, pulled, angle)
     return find_envelope(panel, width, model.panels)
+
+
+def _mean_forces(
+    model: ConcreteModel, resultants: StressResultants, thickness: np.ndarray
+) -> np.ndarray:
+    """Return the means (S, c, 10) of four forces of bars, and of n and m, kN/m and kNm/m.
+
+    thickness (E,) m.
+    """
+    basis = find_basis(model.operators, model.local)
+    force, moment = (sample(basis, one) for one in turn_resultants(model.local, resultants))
+    demand = find_demand(force, moment, thickness, model.layout, model.asked.central_lever_ratio)
+    flat = demand.steel.reshape(*demand.steel.shape[:3], 4)
+    apart = [np.moveaxis(one, 0, -1) for one in (force, moment)]
+    return take_means(model.local, np.concatenate([flat, *apart], axis=-1))
 
 
 def _crack_angles(force: np.ndarray, moment: np.ndarray, thickness: np.ndarray) -> np.ndarray:

@@ -4,7 +4,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from foldshell.checks.concrete.envelope import Envelope, find_envelope, take_means
+from foldshell.checks.concrete.envelope import (
+    Envelope,
+    find_envelope,
+    split_combinations,
+    take_means,
+)
 from foldshell.checks.concrete.model import ConcreteModel
 from foldshell.checks.concrete.panels import PanelSteel
 from foldshell.checks.concrete.punching import PERIMETER, face_resistance, punching_resistance
@@ -51,10 +56,8 @@ def find_panel_shear(
     """
     sampling, strengths, asked = model.shear, model.layout.strengths, model.asked
     shear = shear_coefficients(model.operators, resultants.moment)
-    points = sampling.points
-    force = evaluate(model.operators, turn_components(resultants.force, sampling.angle), points)
-    at_points = turn_vectors(evaluate(model.operators, shear, points), sampling.angle)
-    means = take_means(sampling, np.concatenate([at_points, force], axis=-1))
+    parts = split_combinations(sampling, resultants, 5)
+    means = np.concatenate([_mean_shear(model, part) for part in parts], axis=1)
     rows = np.flatnonzero(sampling.panel < model.panels)
     panel, means = sampling.panel[rows], means[rows]
     size, direction = principal_shear(means[..., :2])
@@ -75,6 +78,15 @@ def find_panel_shear(
     found = find_envelope(panel, np.stack([use, size], axis=-1), model.panels)
     punching = _find_punching(model, shear, resultants.force, depth, ratio, steel.thickness)
     return PanelShear(found.value[:, 1], found.value[:, 0], found, links, *punching)
+
+
+def _mean_shear(model: ConcreteModel, resultants: StressResultants) -> np.ndarray:
+    """Return the means (S, c, 5) kN/m of v_x, v_y and n in the axes of the bars."""
+    sampling, points = model.shear, model.shear.points
+    shear = shear_coefficients(model.operators, resultants.moment)
+    force = evaluate(model.operators, turn_components(resultants.force, sampling.angle), points)
+    at_points = turn_vectors(evaluate(model.operators, shear, points), sampling.angle)
+    return take_means(sampling, np.concatenate([at_points, force], axis=-1))
 
 
 def effective_depth(steel: PanelSteel, model: ConcreteModel) -> tuple[np.ndarray, np.ndarray]:

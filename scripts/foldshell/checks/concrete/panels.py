@@ -7,7 +7,12 @@ import numpy as np
 from foldshell.checks.concrete.cracking import least_steel_area
 from foldshell.checks.concrete.demand import find_demand, principal_tension
 from foldshell.checks.concrete.detailing import bar_spacing
-from foldshell.checks.concrete.envelope import Envelope, find_envelope, take_means
+from foldshell.checks.concrete.envelope import (
+    Envelope,
+    find_envelope,
+    split_combinations,
+    take_means,
+)
 from foldshell.checks.concrete.layout import DIAMETERS, Layout
 from foldshell.checks.concrete.model import ConcreteModel
 from foldshell.checks.concrete.sampling import find_basis, sample, turn_resultants
@@ -55,8 +60,12 @@ def find_panel_steel(
     layout, asked = model.layout, model.asked
     own = np.append(thickness, 0.0)[np.minimum(model.mesh.panel, model.panels)]
     own = np.where(own > 0, own, 1.0)  # panels of an edge beam are left out at the end
-    found, tension = _design_points(model, resultants, own)
-    means = take_means(model.local, found)
+    means, tension = [], np.zeros(len(own))
+    for part in split_combinations(model.local, resultants, 5):
+        found, torn = _design_points(model, part, own)
+        means.append(take_means(model.local, found))
+        tension = np.maximum(tension, torn)
+    means = np.concatenate(means, axis=1)
     envelope = find_envelope(model.local.panel, means, model.panels)
     needed = envelope.value[:, :4].reshape(-1, 2, 2) / layout.strengths.fyd
     peak = np.zeros(model.mesh.panel.max() + 1)
