@@ -77,4 +77,5 @@ TRACKED = replace(WARM, ample=4.0, ample_tolerance=0.05)
 """The same where nothing but comparisons is taken from factors. While all of them are far above
 their limits, two inverse iterations keep the lowest modes on their way; what is then said of
 factors is an upper bound, less than 1 % high as a rule, more where another mode becomes the
-lowest (13 % once in 140 analyses, at a factor of 189). That none falls below its limit unseen is for the bound by random vectors."""
+lowest (13 % once in 140 analyses, at a factor of 189). That none falls below its limit unseen is
+for the bound by random vectors."""
