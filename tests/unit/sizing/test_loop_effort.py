@@ -125,6 +125,39 @@ def test_rules_that_take_more_than_comparisons_get_all_digits():
     assert chosen.second_order_tolerance == 0
 
 
+def test_a_rule_that_takes_digits_of_factors_has_them_followed_closely():
+    """`stress_ratio` limits its long steps by the least factor itself."""
+    case = small_case(rule="stress_ratio")
+    record, arrays = analysed(case)
+    chosen = accuracy.choose_effort(case.sizing, np.full(PANELS, 0.095), record, arrays, False)
+    assert chosen == replace(WARM, second_order_tolerance=0.0)
+    assert accuracy.choose_effort(case.sizing, arrays.thickness, None, None, False).ample == np.inf
+
+
+def test_limits_of_a_person_move_what_is_far_above_them():
+    """A factor of 6 to be kept doubles 2 / 1.5 times: 8 is looked at with care, 16 is ample."""
+    case = small_case(buckling_factor_min=6.0)
+    record, arrays = analysed(case)
+    chosen = accuracy.choose_effort(case.sizing, np.full(PANELS, 0.095), record, arrays, False)
+    assert chosen.ample == pytest.approx(16.0)
+    assert accuracy.is_doubtful(case.sizing, 7.9)
+
+
+def test_an_imperfect_shell_is_analysed_in_full_in_every_step(monkeypatch):
+    """The lowest mode is part of its shape: every utilization hangs on the digits of that."""
+    spent, run = [], iteration.ShellAnalysis.run
+
+    def watch(self, effort, modes=None):
+        spent.append(effort)
+        return run(self, effort, modes)
+
+    monkeypatch.setattr(iteration.ShellAnalysis, "run", watch)
+    settings = settings_of_loop(iterations_max=3)
+    run_loop(small_case(imperfection=0.02, iterations_max=3), SPAN, settings)
+    assert len(spent) >= 3
+    assert set(spent) == {FULL}
+
+
 def test_the_bound_of_hidden_factors_falls_with_the_cube_until_random_vectors_come_in():
     case = small_case()
     record, arrays = analysed(case)
