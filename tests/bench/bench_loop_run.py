@@ -1,14 +1,18 @@
 """Run a sizing loop of one commit and print its cost: `python bench_loop_run.py ROOT KIND`.
 
 ROOT is the checkout whose library is measured, so that two commits can take turns; KIND is one of
-`KINDS`. A process of its own for every row; CPU seconds of one thread.
+`KINDS`. A process of its own for every row; CPU seconds of all its threads.
 """
 
+import contextlib
+import hashlib
 import json
+import os
 import resource
 import sys
 import time
 from dataclasses import dataclass
+from importlib.util import find_spec
 from pathlib import Path
 
 import numpy as np
@@ -16,11 +20,13 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Kind:
-    """A sheet: lines of folds each way, cells along a facet edge, and analyses of its loop."""
+    """A sheet: lines of folds each way, cells along a facet edge, analyses of its loop, and the
+    thickness (m) that it begins with."""
 
     lines: tuple[int, int]
     subdivisions: int
     analyses: int
+    thickness: float = 0.3
 
 
 KINDS = {
@@ -28,7 +34,11 @@ KINDS = {
     "iteration_80k": Kind((15, 16), 8, 6),
     "large_60k": Kind((26, 29), 4, 3),
     "large_260k": Kind((52, 58), 4, 2),
+    "large_800k": Kind((90, 100), 4, 1, 0.6),
+    "million": Kind((102, 112), 4, 1, 0.6),
 }
+PAIRED = ("iteration_20k", "iteration_80k", "large_60k", "large_260k")
+"""Those that are measured against another commit; the largest are measured alone."""
 
 
 def corrugated_dome(lines: tuple[int, int], spacing: float = 2.0) -> dict[str, np.ndarray]:
@@ -48,41 +58,101 @@ def corrugated_dome(lines: tuple[int, int], spacing: float = 2.0) -> dict[str, n
     }  # fmt: skip
 
 
-def run_kind(kind: Kind) -> dict[str, float]:
-    """Return freedoms, CPU s of the model, of the first and of a later analysis, MB and kB."""
-    from foldshell.settings.analysed import ANALYSED
-    from foldshell.settings.stage import StageSettings
-    from foldshell.shell import warm_up  # noqa: F401 - as the workflow's jobs find it
-    from foldshell.shell.mesh_files import mesh_folded_sheet
-    from foldshell.sizing.case import make_case
-    from foldshell.sizing.iteration import IterationTask
-    from foldshell.sizing.rounding import round_thickness
-    from foldshell.sizing.step import take_step
+class Loop:
+    """A sizing loop by the library of today; its threads are those of FOLDSHELL_THREADS, or one."""
 
-    settings = StageSettings(*[group() for group in ANALYSED])
-    before = read_megabytes()
-    began = time.process_time()
-    mesh = mesh_folded_sheet(corrugated_dome(kind.lines), "all", kind.subdivisions)
-    case = make_case(mesh, settings)
-    seconds = [time.process_time() - began]
-    run = getattr(case, "run_in_loop", case.run)
-    thickness = round_thickness(np.full(case.model.sized_panels, 0.3))
+    def __init__(self, arrays: dict[str, np.ndarray], subdivisions: int) -> None:
+        from foldshell.settings.analysed import ANALYSED
+        from foldshell.settings.stage import StageSettings
+        from foldshell.shell import warm_up  # noqa: F401 - as the workflow's jobs find it
+        from foldshell.shell.mesh_files import mesh_folded_sheet
+        from foldshell.sizing.case import make_case
+
+        with contextlib.suppress(ImportError):  # commits before it
+            from foldshell.files.threads import use_threads
+
+            use_threads(int(os.environ.get("FOLDSHELL_THREADS", "1")))
+        self.settings = StageSettings(*[group() for group in ANALYSED])
+        self.begin()
+        self.case = make_case(mesh_folded_sheet(arrays, "all", subdivisions), self.settings)
+
+    def begin(self) -> None:
+        self.before, self.began = read_megabytes(), (time.process_time(), time.perf_counter())
+
+    def analyse(self, *task):
+        """Return record and arrays of an analysis, and whether the loop goes on."""
+        from foldshell.sizing.iteration import IterationTask
+
+        run = getattr(self.case, "run_in_loop", self.case.run)
+        record, arrays = run(IterationTask(*task))
+        return record, arrays, record.goes_on
+
+    def step(self, last, arrays, memory):
+        from foldshell.sizing.step import take_step
+
+        return take_step(last, arrays, memory, self.settings.sizing)
+
+
+class OldLoop(Loop):
+    """The same by the library up to commit 792766a and some after it, whose settings are plain."""
+
+    def __init__(self, arrays: dict[str, np.ndarray], subdivisions: int) -> None:
+        import foldshell.shell.ready  # noqa: F401
+        import yaml
+        from foldshell.study.settings import make_settings
+        from foldshell.study.stages import stage_parameters
+
+        from foldshell.shell.mesh_files import mesh_folded_sheet
+        from foldshell.sizing.case import make_case
+
+        text = Path(sys.argv[1], "config", "config.yaml").read_text(encoding="utf-8")
+        self.plain = stage_parameters(make_settings(yaml.safe_load(text), "config"), "size")
+        self.begin()
+        self.case = make_case(mesh_folded_sheet(arrays, "all", subdivisions), self.plain)
+
+    def analyse(self, number, span, thickness, last, arrays):
+        from foldshell.sizing.iteration import IterationTask
+
+        task = IterationTask(number, span, thickness, last or {}, arrays or {})
+        record, found = self.case.run(task)
+        return record, found, record["verdict"] == "continue"
+
+    def step(self, last, arrays, memory):
+        from foldshell.sizing.step import take_step
+
+        return take_step(last, arrays, memory or {}, self.plain["sizing"])
+
+
+def run_kind(kind: Kind) -> dict[str, float]:
+    """Return freedoms, CPU and wall s of the model and of analyses, MB and kB."""
+    old = find_spec("foldshell.settings") is None
+    loop = (OldLoop if old else Loop)(corrugated_dome(kind.lines), kind.subdivisions)
+    model = loop.case.model
+    seconds, goes_on = [time.process_time() - loop.began[0]], True
+    thickness = np.round(np.full(model.sized_panels, kind.thickness), 4)
     last = arrays = memory = None
-    span = float(np.ptp(case.model.mesh.nodes[:, 0]))
-    while (last is None or last.goes_on) and len(seconds) <= kind.analyses:
+    span = float(np.ptp(model.mesh.nodes[:, 0]))
+    while goes_on and len(seconds) <= kind.analyses:
         if last:
-            step = take_step(last, arrays, memory, settings.sizing)
+            step = loop.step(last, arrays, memory)
             thickness, memory = step.thickness, step.memory
         began = time.process_time()
-        last, arrays = run(IterationTask(len(seconds) - 1, span, thickness, last, arrays))
+        last, arrays, goes_on = loop.analyse(len(seconds) - 1, span, thickness, last, arrays)
         seconds.append(time.process_time() - began)
     return {
-        "dofs": last.dofs, "build_s": seconds[0], "first_s": seconds[1],
-        "iteration_s": float(np.median(seconds[2:])), "loop_s": sum(seconds),
-        "analyses": len(seconds) - 1, "rss_mb": read_megabytes(),
-        "kb_per_freedom": 1024 * (read_megabytes() - before) / last.dofs,
+        "dofs": model.pattern.size, "build_s": seconds[0], "first_s": seconds[1],
+        "iteration_s": float(np.median(seconds[2:] or seconds[1:])), "loop_s": sum(seconds),
+        "wall_s": time.perf_counter() - loop.began[1], "analyses": len(seconds) - 1,
+        "rss_mb": read_megabytes(),
+        "kb_per_freedom": 1024 * (read_megabytes() - loop.before) / model.pattern.size,
         "thickness_sum": float(thickness.sum()),
+        "bytes": hashlib.sha256(np.ascontiguousarray(arrays_of(arrays)).tobytes()).hexdigest()[:12],
     }  # fmt: skip
+
+
+def arrays_of(arrays) -> np.ndarray:
+    """Return the modes that an analysis found."""
+    return arrays["buckling_modes"] if isinstance(arrays, dict) else arrays.buckling_modes
 
 
 def read_megabytes() -> float:

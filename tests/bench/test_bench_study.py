@@ -1,0 +1,54 @@
+"""Processor time of a study's jobs by rule, against another commit: `make bench`.
+
+BENCH_STUDY names the tag of the designs (by default one small design; `supports` are the nine),
+BENCH_AGAINST the commit. Written to results/bench/study.csv.
+"""
+
+import csv
+import os
+import subprocess
+import sys
+from collections import Counter
+from pathlib import Path
+
+import pytest
+from test_bench_loop import AGAINST, RESULTS, ROOT, other  # noqa: F401 - a fixture
+
+pytestmark = pytest.mark.bench
+STUDY = os.environ.get("BENCH_STUDY", "demo")
+
+
+def run_study(code: Path, results: Path) -> Counter[str]:
+    """Return the CPU s of the jobs of each rule, from nothing, one job at a time."""
+    command = [
+        sys.executable, "-m", "snakemake", "--cores", "1", "--nolock",
+        "--config", f"study={STUDY}", f"results={results}",
+    ]  # fmt: skip
+    subprocess.run(command, cwd=code, check=True, capture_output=True)
+    return sum_jobs(results / "benchmarks")
+
+
+def sum_jobs(folder: Path) -> Counter[str]:
+    """Return the CPU s of each rule from the files of Snakemake's `benchmark`."""
+    found: Counter[str] = Counter()
+    for path in folder.glob("*/*.tsv"):
+        with path.open(encoding="utf-8") as stream:
+            for row in csv.DictReader(stream, delimiter="\t"):
+                found[path.parent.name] += float(row["cpu_time"])
+    return found
+
+
+def test_share_of_each_rule_in_a_study(other, tmp_path):  # noqa: F811
+    own, before = run_study(ROOT, tmp_path / "own"), run_study(other, tmp_path / "before")
+    total = own.total()
+    RESULTS.mkdir(parents=True, exist_ok=True)
+    with (RESULTS / "study.csv").open("w", newline="", encoding="utf-8") as stream:
+        writer = csv.writer(stream)
+        writer.writerow(["rule", "cpu_s", "share", f"cpu_s at {AGAINST}"])
+        for rule, seconds in own.most_common():
+            writer.writerow([rule, f"{seconds:.2f}", f"{seconds / total:.3f}", before[rule]])
+        writer.writerow(["all", f"{total:.2f}", "1", f"{before.total():.2f}"])
+    shared = set(own) & set(before)
+    ratio = sum(own[rule] for rule in shared) / sum(before[rule] for rule in shared)
+    print(f"{STUDY}: {total:.1f} s, {ratio:.2f} of {AGAINST} in the rules of both")
+    assert ratio < 1.25
