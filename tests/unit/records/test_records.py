@@ -141,6 +141,8 @@ def test_every_key_with_a_unit_in_its_name_has_that_unit():
             suffix = re.search(r"_([a-z]+[23]?)$", key)
             if key == "volume_per_area_m":
                 assert about.unit in ("m", "m3/m2")
+            elif key == "cost_m2":  # in a currency of one's own
+                assert about.unit == "1/m2"
             elif key.endswith(("_kg_m2", "_kg_m3", "_cm2_m")):
                 assert about.unit == "/".join(key.split("_")[-2:])
             elif suffix and suffix[1] in UNITS:
@@ -157,6 +159,7 @@ def test_every_key_with_a_unit_in_its_name_has_that_unit():
                 "cm2/m",
                 "mm",
                 "kg",
+                "1/m2",
             }, key
     assert checked > 60
 
@@ -208,7 +211,7 @@ def test_a_schema_refuses_what_a_record_refuses(changed):
 def test_columns_of_designs_stand_in_the_summary():
     """The columns of designs.tsv, their record and the first columns of the summary are one."""
     assert set(entries(DesignRow)) == set(COLUMNS)
-    later = ("edge_beam", "folded", "file_unit", "loads", "outline", "openings")
+    later = ("edge_beam", "folded", "file_unit", "loads", "outline", "openings", "settings")
     later += SILENT_AT_ZERO
     first = [key for key in entries(DesignRow) if not key.startswith(later)]
     assert list(entries(SummaryRow))[: len(first)] == first
