@@ -6,7 +6,7 @@ from foldshell.settings.design import SILENT_AT_ZERO, Design
 from foldshell.settings.exploration import Exploration
 from foldshell.settings.field import Plain
 
-SAME = ("surface", "span_m", "height_m", "support", "fold_mode", "loads")
+SAME = ("surface", "span_m", "height_m", "support", "fold_mode", "loads", "settings")
 """Columns in which a row of the table is like the base, but where they are variables."""
 
 

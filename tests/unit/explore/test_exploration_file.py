@@ -90,6 +90,7 @@ def test_round_0_has_designs_like_the_base_and_the_smooth_shell(tmp_path):
         Design.from_row({**row, "design": "same", "zigzag": 15}),
         Design.from_row({**row, "design": "c", "surface": "arch"}),
         Design.from_row({**row, "design": "d", "span_m": 6.0}),
+        Design.from_row({**row, "design": "e", "settings": "config/reinforced.yaml"}),
     ]
     rows = list_references(found, designs)
     assert [one["design"] for one in rows] == ["00-00", "00-01", "00-02"]
