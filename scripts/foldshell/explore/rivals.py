@@ -35,7 +35,7 @@ def choose_rivals(
 def _is_density(exploration: Exploration, record: CandidateRecord) -> bool:
     """Tell whether a row of the table differs from the base in its counts and variables alone."""
     free = {*COUNTS, *exploration.columns}
-    same = (record.columns.get(key) == value for key, value in exploration.base.items()
+    same = (record.columns.get(key, value) == value for key, value in exploration.base.items()
             if key not in free)  # fmt: skip
     return record.columns["pattern"] != "smooth" and all(same)
 
@@ -65,11 +65,12 @@ def resize(
 ) -> list[ResizedRow]:
     """Size each rival anew for each buckling factor by the rule `optimality`, on one mesh.
 
-    A shell that keeps the next factor already is not sized again: that limit does not hold it.
+    A shell that keeps the next factor already is not sized again: that limit does not hold it; nor
+    is one that a search by this rule has sized for its limit.
     """
     rows = []
     for rival in (rivals := choose_rivals(exploration, records)):
-        known: CandidateRecord | None = None
+        known = rival if exploration.search.rule == RULE else None
         for factor in list_factors(exploration, rivals):
             if not _keeps(known, factor):
                 known = _size_for(factor, rival, exploration, settings)

@@ -78,5 +78,9 @@ def test_every_shell_is_sized_by_one_rule_for_one_factor(monkeypatch):
     assert [factor for name, factor, _ in asked if name == "00-03"] == [4.0, 12.0]
     assert [factor for name, factor, _ in asked if name == "00-00"] == [4.0, 6.0, 7.13, 12.0]
     smooth = [row for row in rows if row.kind == "smooth"]
+    asked.clear()
+    given = replace(EXPLORATION, search=Search(rule="optimality"))
+    resize(given, RECORDS, read_stage({"sizing": {}}, Sizing))
+    assert 4.0 not in [factor for _, factor, _ in asked]
     assert [row.volume_m3 for row in smooth] == pytest.approx([40.0, 40.0, 40.0, 120.0])
     assert len(rows) == 12 and {row.kind for row in rows} == {"found", "table", "smooth"}
