@@ -44,7 +44,8 @@ class Point:
 
 @dataclass(frozen=True)
 class Searched:
-    """An exploration: its points, the confirmed designs, the rivals, and what was searched."""
+    """An exploration: its points, the confirmed designs, the rivals, what was searched, and how
+    many designs of round 0 nobody has sized (`unseen`)."""
 
     name: str
     points: tuple[Point, ...]
@@ -54,6 +55,7 @@ class Searched:
     about: Plain = field(default_factory=dict)
     tried: int = 0
     first: dict[str, str] = field(default_factory=dict)
+    unseen: int = 0
 
     @property
     def title(self) -> str:
@@ -130,6 +132,7 @@ def read_searched(table: str | Path) -> Searched:
         read_json(about) if about.is_file() else {},
         sum(not row["candidate"].startswith("00") for row in rows),
         next(iter(first.values()), {}),
+        len(first.keys() - {row["candidate"] for row in rows}),
     )
 
 

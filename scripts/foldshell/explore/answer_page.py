@@ -139,6 +139,11 @@ def _say_missing(searched: Sequence[Searched], listed: Sequence[str]) -> list[st
     alone = [one.name for one in searched if not one.judged_as("reinforced", FOUND)]
     lines = [f"- **Not run here**: {', '.join(missing)}; nothing is said of these roofs."]
     lines = lines if missing else []
+    lines += [
+        f"- **{one.name}: {one.unseen} rows of the table were not sized**, so the lightest is not "
+        "known."
+        for one in searched if one.unseen
+    ]  # fmt: skip
     if alone:
         lines.append(f"- **Not sized alike at the ordinary mesh here**: {', '.join(alone)}.")
     return lines

@@ -62,10 +62,10 @@ def compare_factors(
 
 
 def list_factors(searched: Sequence[Searched]) -> list[str]:
-    """Return the fold against the smooth shell for each factor that all roofs were sized for."""
-    sets = [{row.factor_due for row in one.resized} for one in searched if one.resized]
+    """Return the fold against the smooth shell for each factor but those of single designs."""
+    given = {row.factor_due for one in searched for row in one.resized}
     lines = []
-    for factor in sorted(set.intersection(*sets)) if sets else []:
+    for factor in sorted(given - {find_own_factor(one) for one in searched}):
         if pairs := list(compare_factors(searched, factor, False)):
             more = say_changes(list(compare_factors(searched, factor, True)))
             lines.append(
@@ -74,6 +74,14 @@ def list_factors(searched: Sequence[Searched]) -> list[str]:
                 f"m² of plan that is covered {more}."
             )
     return lines
+
+
+def find_own_factor(one: Searched) -> float | None:
+    """Return the factor that shells were sized for since the best of the search has it."""
+    found = [point.factor for row in one.resized if (point := one.point_of(row.candidate))
+             and row.kind == FOUND]  # fmt: skip
+    factors = [row.factor_due for row in one.resized if row.factor_due % 1]
+    return next((due for due in factors if found and abs(due - found[0]) < 0.01), None)
 
 
 def say_changes(pairs: Sequence[tuple[str, float]]) -> str:
@@ -120,7 +128,7 @@ def list_lightest(searched: Sequence[Searched]) -> list[str]:
     for one in searched:
         rows, found = one.of(TABLE), one.of(FOUND)
         rows = [point for point in rows if not point.edge_beam and point.state == "sized"]
-        if rows and found:
+        if rows and found and not one.unseen:
             pairs.append((one.title, found[0].volume / rows[0].volume - 1))
     words = (
         "- **On the mesh and by the rule of each search, against the lightest row of the table**"
