@@ -1,8 +1,8 @@
 """What a search of the pattern finds on the paraboloid of the paper, as docs/explore.md says.
 
 The limits are those of config/explorations. The bounds stand well above what was found (39.3 m3 on
-strip edges, 40.0, 41.1 and 42.4 on zig-zag edges), and below the lightest density of Table 1 on the same
-mesh (87.6 m3): they hold the claim, not the last digits of a search.
+strip edges; 40.0, 41.1 and 42.4 on zig-zag edges), and below the lightest density of Table 1 on the
+same mesh (87.6 m3): they hold the claim, not the last digits of a search.
 """
 
 import pytest
