@@ -54,7 +54,7 @@ def _size(folder, analyses, mesh=None):
     if mesh:
         group.main(mesh, analyses, *classes, span_m=SPAN, classes=3, settings=stage("analyse"))
     size.main(
-        folder.parent / "mesh.npz", analyses, classes,
+        folder.parent / "mesh.npz", analyses,
         folder / "history.csv", folder / "history.xlsx",
         [folder / name for name in ("final.json", "final.npz", "iterations.npz")],
         design=DESIGN, settings=stage("size"),
