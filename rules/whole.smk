@@ -14,10 +14,12 @@ def given(values):
 
 def edited_workbooks(wildcards):
     """Return a list of the workbooks that a person has edited, as an input: its name tells their
-    content, so that a loop runs again when one is edited or put back."""
+    content, so that a loop runs again when one is edited or put back; its date does so where a
+    machine knows no former run."""
     folder = Path(f"{place()}/{wildcards.design}/sizing")
     edited = [path for path in sorted(folder.glob("[0-9][0-9]/thickness.xlsx")) if is_edited(path)]
-    return listed(write_content_list(edited, LIBRARY))
+    path = write_content_list(edited, LIBRARY)
+    return local(path) if edited else listed(path)
 
 
 rule size:

@@ -18,7 +18,7 @@ MB_AND_PER_NODE: Mapping[str, tuple[float, float]] = MappingProxyType({
     "mesh": (200, 0.002),
     "analyse": (420, 0.031),
     "mesh_convergence": (250, 0.072),
-    "compare": (220, 0.075),
+    "compare": (220, 0.082),
     "draw": (640, 0.002),
     "page": (175, 0.010),
 })  # fmt: skip
