@@ -72,6 +72,7 @@ def summary_inputs(tag):
     RUN["studies"].append(tag)
     files = ["folded/quality.json", "sizing/final.json", "mesh_convergence.json"]
     files += ["crosscheck/comparison.json", "checks/engineering.json"]
+    files.append("sizing/classes.json")  # not read: the loops of a summary are whole
     return [f"{RESULTS}/{name}/{file}" for name in names_of_tag(tag) for file in files]
 
 

@@ -74,7 +74,7 @@ def folder(tmp_path_factory):
     settings = stage("analyse")
     group.main(shell, [files[0]], *classes, span_m=SPAN, classes=2, settings=settings)
     size.main(
-        shell, [files[0]], classes, loop / "history.csv", loop / "history.xlsx",
+        shell, [files[0]], loop / "history.csv", loop / "history.xlsx",
         [loop / name for name in ("final.json", "final.npz", "iterations.npz")],
         design=DESIGN | SIZES, settings=stage("size"),
     )  # fmt: skip
