@@ -92,6 +92,10 @@ class Searched:
             and (row.buckling_factor_min is None or row.buckling_factor_min > KEPT * row.factor_due)
         ]  # fmt: skip
 
+    def was_sized(self, kind: str, factor: float) -> bool:
+        """Tell whether a kind was sized for a factor, whatever came of it."""
+        return any(row.kind == kind and row.factor_due == factor for row in self.resized)
+
     def resized_for(self, kind: str, factor: float) -> ResizedRow | None:
         """Return the row of a kind for one buckling factor."""
         return next((row for row in self.resized_as(kind) if row.factor_due == factor), None)

@@ -110,8 +110,9 @@ def tabulate_factors(searched: Sequence[Searched]) -> list[str]:
             rows.append([
                 one.title, f"{factor:g}", f"{say(tried.volume)} ({say(tried.factor)})" if tried
                 else "none",
-                *(f"{say(row.volume_m3)} ({say(row.buckling_factor_min)})" if row else "not kept"
-                  for row in cells),
+                *(f"{say(row.volume_m3)} ({say(row.buckling_factor_min)})" if row
+                  else "not kept" if one.was_sized(kind, factor) else "not sized"
+                  for kind, row in zip(KINDS, cells, strict=True)),
             ])  # fmt: skip
     return make_table(header, rows)
 

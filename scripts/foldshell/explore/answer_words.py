@@ -158,6 +158,8 @@ def list_factors_won(searched: Sequence[Searched]) -> list[str]:
     for one in searched:
         words: dict[str, list[str]] = {}
         for factor in sorted({row.factor_due for row in one.resized}):
+            if not all(one.was_sized(kind, factor) for kind in (FOUND, SMOOTH)):
+                continue
             found = [one.lightest(factor), one.resized_for(FOUND, factor)]
             volumes = [find_volume(row) for row in found if row]
             smooth = one.resized_for(SMOOTH, factor)
