@@ -25,7 +25,7 @@ pytestmark = [
 ]
 ONE = DESIGNS.splitlines(keepends=True)[0]
 LOOP = "results/tiny-dome/sizing"
-TARGETS = TARGET, "results/tiny-dome/manifest.json"
+TARGETS = TARGET, "results/tiny-dome/manifest.json", "results/tiny-saddle/sizing/classes.json"
 
 
 @pytest.fixture(scope="module")

@@ -11,11 +11,13 @@ pytestmark = pytest.mark.workflow
 
 WHOLE = {"loop": "whole"}
 LOOP = "results/tiny-dome/sizing"
+CLASSES = [f"results/tiny-{name}/sizing/classes.json" for name in ("dome", "saddle")]
+"""By rules made where they are asked for, in one job always."""
 
 
 def finish(code, folder, loop):
     """Run a study to its end; return what Snakemake said."""
-    done = run(code, folder, TARGET, "--config", f"loop={loop}")
+    done = run(code, folder, TARGET, *CLASSES, "--config", f"loop={loop}")
     assert done.returncode == 0, done.stderr[-3000:]
     return done.stderr
 
@@ -28,9 +30,18 @@ def whole(code, tmp_path_factory):
     return folder
 
 
-def test_every_file_is_that_of_a_loop_by_rules(finished, whole):
+@pytest.fixture(scope="module")
+def by_rules(code, finished, tmp_path_factory):
+    """Return the folder of the same study with its loops by rules."""
+    folder = tmp_path_factory.mktemp("rules") / "study"
+    shutil.copytree(finished, folder, symlinks=True, copy_function=shutil.copy2)
+    finish(code, folder, "steps")
+    return folder
+
+
+def test_every_file_is_that_of_a_loop_by_rules(by_rules, whole):
     """The records of its jobs too, so that no result tells how the loop was run."""
-    assert results(whole) == results(finished)
+    assert results(whole) == results(by_rules)
 
 
 def test_a_second_start_has_nothing_to_do(code, whole):
@@ -38,13 +49,13 @@ def test_a_second_start_has_nothing_to_do(code, whole):
 
 
 @pytest.mark.parametrize(("first", "then"), [("steps", "whole"), ("whole", "steps")])
-def test_a_run_is_begun_one_way_and_ended_in_the_other(code, finished, tmp_path, first, then):
+def test_a_run_is_begun_one_way_and_ended_in_the_other(code, by_rules, tmp_path, first, then):
     folder = make_study(tmp_path / "killed")
-    begin = [TARGET, "--config", f"loop={first}"]
+    begin = [TARGET, *CLASSES, "--config", f"loop={first}"]
     run_and_kill(code, folder, folder / LOOP / "02/thickness.xlsx", *begin)
     shutil.rmtree(folder / ".snakemake/locks", ignore_errors=True)
     finish(code, folder, then)
-    assert results(folder) == results(finished)
+    assert results(folder) == results(by_rules)
 
 
 def test_a_hand_edit_redoes_what_follows_and_only_that(code, whole, tmp_path):
