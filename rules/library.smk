@@ -14,7 +14,8 @@ def listed(path):
     """Return a list of files as an input: a file of this machine, whatever prefix or storage results
     have. Its name tells its content; the date says nothing, so that a machine where results in a
     storage are met for the first time need not make them anew. Where machines share no files each
-    has its own: a job with a `local` input would run where Snakemake does, and so would its group."""
+    has its own: a job with a `local` input would run where Snakemake does, and so would its group.
+    """
     if not setting_of("storage_settings", "default_storage_provider"):
         return local(path)
     os.utime(path, (0, 0))
