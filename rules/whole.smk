@@ -22,6 +22,10 @@ def edited_workbooks(wildcards):
     return local(path) if edited else listed(path)
 
 
+# Written before Snakemake looks at what there is.
+listed(write_content_list([], LIBRARY))
+
+
 rule size:
     input:
         **{f"code_{name}": code_inputs(name) for name in LOOP_PARAMS},
