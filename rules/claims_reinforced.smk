@@ -15,13 +15,6 @@ MADE_TO_STAND = [
 ]
 
 
-def flat_sheet(wildcards):
-    """Return folded.npz of the flat sheet that a design is held against, none without one."""
-    named = wildcards.design in {d.name for d in JUDGED["flats"]}
-    flat = flat_of(BY_NAME[wildcards.design]) if named else None
-    return f"{RESULTS}/{flat}/folded/folded.npz" if flat else []
-
-
 rule reinforced_state:
     input:
         folded=rules.fold.output.folded,

@@ -57,7 +57,7 @@ ONE_BY_ONE = threading.Lock()
 
 
 def fetch_beside(job, folder, name):
-    """Fetch what a job may read and no rule declares, that of a design or study once a run: of a
+    """Fetch what a job may read and does not declare, that of a design or study once a run: of a
     loop what the pages and workbooks after it show, and what a loop in one job goes on from."""
     loop = job.rulename not in ("pattern", "fold", "mesh", "start", "analyse", "resize")
     pattern = WHOLE_LOOP if loop else RECORDS

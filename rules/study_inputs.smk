@@ -53,3 +53,10 @@ def name_an_exploration(wildcards):
             "exploration: none is named: type --config exploration=FILE, such as "
             "config/explorations/paraboloid_strip.yaml"
         )
+
+
+def flat_sheet(wildcards):
+    """Return folded.npz of the flat sheet that a design is held against, none without one."""
+    named = wildcards.design in {d.name for d in JUDGED["flats"]}
+    flat = flat_of(BY_NAME[wildcards.design]) if named else None
+    return f"{RESULTS}/{flat}/folded/folded.npz" if flat else []
