@@ -12,18 +12,22 @@ def given(values):
     }
 
 
-def edited_workbooks(wildcards):
-    """Return a list of the workbooks that a person has edited, as an input: its name tells their
-    content, so that a loop runs again when one is edited or put back; its date does so where a
-    machine knows no former run."""
-    folder = Path(f"{place()}/{wildcards.design}/sizing")
+@functools.cache
+def list_edited(design):
+    """Write the list of the workbooks of a design that a person has edited; return it as an input:
+    its name tells their content, so that a loop runs again when one is edited or put back; its date
+    does so where a machine knows no former run."""
+    folder = Path(f"{place()}/{design}/sizing")
     edited = [path for path in sorted(folder.glob("[0-9][0-9]/thickness.xlsx")) if is_edited(path)]
     path = write_content_list(edited, LIBRARY)
     return local(path) if edited else listed(path)
 
 
-# Written before Snakemake looks at what there is.
+# Written before Snakemake looks at what there is, which it does while it asks for inputs.
 listed(write_content_list([], LIBRARY))
+if not is_job():
+    for loop in Path(place()).glob("*/sizing"):
+        list_edited(loop.parent.name)
 
 
 rule size:
@@ -31,7 +35,7 @@ rule size:
         **{f"code_{name}": code_inputs(name) for name in LOOP_PARAMS},
         mesh=rules.mesh.output.mesh,
         folded=panels_of_file,
-        edits=edited_workbooks,
+        edits=lambda wildcards: list_edited(wildcards.design),
         library=code_inputs("whole_loop"),
     output:
         **FINAL,
