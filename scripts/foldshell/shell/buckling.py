@@ -178,7 +178,7 @@ def _limits(values: np.ndarray, effort: Effort) -> np.ndarray:
     largest = values[0].max()
     near = values[0] * NEAR >= largest
     limit[0] = np.where(near, effort.near_tolerance, effort.far_tolerance)
-    if largest * effort.ample < 1:
+    if np.isfinite(effort.ample) and largest * effort.ample < 1:
         rough = np.maximum(limit, effort.ample_tolerance)
         rough[0] = np.where(near, rough[0], np.inf)
         limit = np.where(values > 0, rough, limit)
