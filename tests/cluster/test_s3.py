@@ -166,7 +166,7 @@ def here(code, tmp_path_factory):
 
 def is_of_study(name):
     """Tell whether a result is no copy that is left at the end of a run, and no mark of a table."""
-    return name.count("/") > 1
+    return name.count("/") > 1 and not name.endswith(("studies/copies.json", "studies/table.txt"))
 
 
 def fetch_bucket(server, prefix, folder):

@@ -12,6 +12,8 @@ from foldshell.files.whole import SECONDS, hash_data, hash_file, held_back
 
 LISTS = ".snakemake/library/"
 """Where lists of hashes stand that Snakemake takes for inputs."""
+STORED = ".snakemake/storage/"
+"""Below what Snakemake keeps local copies of a storage."""
 GATHERED = ("studies", "explorations")
 """Folders whose folders gather what is about several designs."""
 CODE = "library"
@@ -62,7 +64,7 @@ def describe_job(
         wildcards=wildcards,
         outputs=outputs,
         inputs=own,
-        external={_shorten(path): digest for path, digest in external.items()},
+        external={_shorten(path, home): digest for path, digest in external.items()},
         params_sha256=hash_data(_plain({key: value for key, value in task.params.items()})),
         code_sha256=hash_file(code) if code else "",
     )
@@ -92,9 +94,13 @@ def _relative(path: str | Path, home: Path) -> str:
     return Path(path).relative_to(home).as_posix()
 
 
-def _shorten(path: str) -> str:
-    """Return a path without what tells of the machine: relative to the project, else its name."""
+def _shorten(path: str, home: Path) -> str:
+    """Return a path without what tells of the machine: relative to the project, else its name; of a
+    result among the local copies of a storage, as it is without one."""
     here = Path.cwd()
+    top = home.parent.parent if home.parent.name in GATHERED else home.parent
+    if path.startswith(STORED) and Path(path).is_relative_to(top):
+        return f"{top.name}/{_relative(path, top)}"
     full = Path(path).absolute()
     return full.relative_to(here).as_posix() if full.is_relative_to(here) else Path(path).name
 

@@ -1,0 +1,24 @@
+"""Records of jobs under object storage name files as a run without one does."""
+
+from types import SimpleNamespace
+
+import pytest
+
+from foldshell.engine.job import describe_job
+
+PLACES = ["results", ".snakemake/storage/s3/bucket/prefix/results"]
+
+
+@pytest.mark.parametrize("place", PLACES)
+def test_results_of_designs_are_named_as_without_a_storage(place, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    final, table = f"{place}/dome/sizing/final.json", f"{place}/studies/tiny/summary.csv"
+    for path in (final, table, "config/designs.tsv"):
+        (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / path).write_text("1")
+    task = SimpleNamespace(
+        rule="summary", wildcards={"tag": "tiny"}, input={}, output=[table], params={}
+    )
+    record = describe_job(task, {final: "a", "config/designs.tsv": "b"})
+    assert record.external == {"results/dome/sizing/final.json": "a", "config/designs.tsv": "b"}
+    assert list(record.outputs) == ["summary.csv"]
