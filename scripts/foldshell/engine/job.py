@@ -65,7 +65,7 @@ def describe_job(
         outputs=outputs,
         inputs=own,
         external={_shorten(path, home): digest for path, digest in external.items()},
-        params_sha256=hash_data(_plain({key: value for key, value in task.params.items()})),
+        params_sha256=hash_data(_plain({key: value for key, value in task.params.items()}, home)),
         code_sha256=hash_file(code) if code else "",
     )
 
@@ -95,20 +95,26 @@ def _relative(path: str | Path, home: Path) -> str:
 
 
 def _shorten(path: str, home: Path) -> str:
-    """Return a path without what tells of the machine: relative to the project, else its name; of a
-    result among the local copies of a storage, as it is without one."""
+    """Return a path without what tells of the machine: relative to the project, else its name."""
     here = Path.cwd()
-    top = home.parent.parent if home.parent.name in GATHERED else home.parent
-    if path.startswith(STORED) and Path(path).is_relative_to(top):
-        return f"{top.name}/{_relative(path, top)}"
-    full = Path(path).absolute()
+    full = Path(_unstored(path, home)).absolute()
     return full.relative_to(here).as_posix() if full.is_relative_to(here) else Path(path).name
 
 
-def _plain(value: Any) -> Any:
+def _unstored(path: str, home: Path) -> str:
+    """Return the path of a local copy of a storage as it is without one, others as they are."""
+    top = home.parent.parent if home.parent.name in GATHERED else home.parent
+    if not path.startswith(STORED) or not Path(path).is_relative_to(top):
+        return path
+    return Path(top.name, Path(path).relative_to(top)).as_posix()
+
+
+def _plain(value: Any, home: Path) -> Any:
     """Return parameters as plain data, to be hashed: named lists of Snakemake become lists."""
     if isinstance(value, Mapping):
-        return {str(key): _plain(item) for key, item in value.items()}
+        return {str(key): _plain(item, home) for key, item in value.items()}
     if isinstance(value, list | tuple):
-        return [_plain(item) for item in value]
-    return value if isinstance(value, str | int | float | bool | None) else str(value)
+        return [_plain(item, home) for item in value]
+    if isinstance(value, str):
+        return _unstored(value, home)
+    return value if isinstance(value, int | float | bool | None) else str(value)

@@ -5,6 +5,7 @@ from types import SimpleNamespace
 import pytest
 
 from foldshell.engine.job import describe_job
+from foldshell.files.whole import hash_data
 
 PLACES = ["results", ".snakemake/storage/s3/bucket/prefix/results"]
 
@@ -17,8 +18,13 @@ def test_results_of_designs_are_named_as_without_a_storage(place, tmp_path, monk
         (tmp_path / path).parent.mkdir(parents=True, exist_ok=True)
         (tmp_path / path).write_text("1")
     task = SimpleNamespace(
-        rule="summary", wildcards={"tag": "tiny"}, input={}, output=[table], params={}
+        rule="summary",
+        wildcards={"tag": "tiny"},
+        input={},
+        output=[table],
+        params={"results": place},
     )
     record = describe_job(task, {final: "a", "config/designs.tsv": "b"})
     assert record.external == {"results/dome/sizing/final.json": "a", "config/designs.tsv": "b"}
     assert list(record.outputs) == ["summary.csv"]
+    assert record.params_sha256 == hash_data({"results": "results"})
