@@ -70,7 +70,7 @@ def test_a_small_search_makes_a_whole_answer(code, tmp_path):
     that the workflow takes, and the page's bytes are the same when it is made again."""
     text = TEXT.replace("rounds: 3", "rounds: 0")
     folder = make_folder(tmp_path / "answer", text)
-    done = run(code, folder, *TARGET, "beside")
+    done = run(code, folder, "beside", *TARGET)
     assert done.returncode == 0, done.stderr[-3000:]
     done = run(code, folder, "fold_answer", "all")
     assert done.returncode == 0, done.stderr[-3000:]

@@ -39,7 +39,7 @@ QUANTITIES = {
     "flat_foldability_max_rad": "geometry",
 }
 """What error a quantity inherits."""
-LOCAL = {
+STAND_INS = {
     "utilization_mean": ("utilization_reinforced_mean", "utilization_strip_mean"),
     "utilization_variation": ("utilization_reinforced_variation", "utilization_strip_variation"),
     "utilization_panel_mean_max": ("utilization_reinforced_max", "utilization_strip_max"),
@@ -83,7 +83,7 @@ class DesignResult:
 
         Of a loop that sized by strips or as reinforced concrete the utilization is that of it.
         """
-        for name in (*LOCAL.get(quantity, ()), quantity):
+        for name in (*STAND_INS.get(quantity, ()), quantity):
             value = getattr(self.values, name, None)
             if value is not None:
                 return value

@@ -9,6 +9,7 @@ from foldshell.records.analysis import AnalysisRecord
 from foldshell.records.analysis_arrays import AnalysisArrays
 from foldshell.records.measures import Measures
 from foldshell.settings.loads import Combinations
+from foldshell.settings.sizing import REINFORCED
 from foldshell.shell.supports import SUPPORT_SETS
 
 SCALARS = (
@@ -19,8 +20,8 @@ SCALARS = (
     "panels_at_bound",
 )
 
-LOCAL = ("strip", "reinforced")
-"""Measures whose own mean and variation over panels stand where those of points stand else."""
+LOCAL = ("strip", REINFORCED)
+"""Measures whose own mean and variation over panels stand in for those of points."""
 
 
 @dataclass(frozen=True)

@@ -140,9 +140,6 @@ def list_errors(
     criteria sized, whose cross-check stands for quantities of its kind, and whose mesh error for
     buckling factors.
     """
-    made = {name: (error, paper[_KINDS.get(name, "utilization")][1])
+    made = {name: (error, paper["displacement" if name == "displacement" else "utilization"][1])
             for name, error in found.items()}  # fmt: skip
     return made | {"buckling": tuple(paper["buckling"])}
-
-
-_KINDS = {"displacement": "displacement"}

@@ -7,8 +7,10 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import TypeVar
 
+from foldshell.explore.fronts import sweep_front
 from foldshell.files.errors import InputError
 from foldshell.files.whole import read_json
+from foldshell.records.candidate import SIZED, is_found
 from foldshell.records.rivals import FOUND, KEPT, SMOOTH, TABLE, JudgedRow, ResizedRow, name_kind
 from foldshell.records.summary import SummaryRow
 from foldshell.records.table import read_rows
@@ -31,7 +33,7 @@ class Point:
     panels: int
     kind: str
     feasible: bool
-    state: str = "sized"
+    state: str = SIZED
     layout: tuple[int, int] | None = None
     edge_beam: bool = False
     creases: float = 0.0
@@ -88,7 +90,7 @@ class Searched:
         """Return the rows of a kind that were sized and keep their factor within 1 %."""
         return [
             row for row in self.resized
-            if row.kind == kind and row.state == "sized" and row.volume_m3
+            if row.kind == kind and row.state == SIZED and row.volume_m3
             and (row.buckling_factor_min is None or row.buckling_factor_min > KEPT * row.factor_due)
         ]  # fmt: skip
 
@@ -103,11 +105,8 @@ class Searched:
 
 def find_front(points: Iterable[Point], gain: Callable[[Point], float]) -> list[Point]:
     """Return the points that none beats in both volume and what `gain` gives (more is better)."""
-    front: list[Point] = []
-    for point in sorted(points, key=lambda one: (one.volume, -gain(one), one.name)):
-        if not front or gain(point) > gain(front[-1]):
-            front.append(point)
-    return front
+    ordered = sorted(points, key=lambda one: one.name)
+    return sweep_front(ordered, lambda one: one.volume, lambda one: -gain(one))
 
 
 def read_searched(table: str | Path) -> Searched:
@@ -134,7 +133,7 @@ def read_searched(table: str | Path) -> Searched:
         _read_beside(rivals / "resized.csv", ResizedRow),
         {measure: _read_beside(rivals / f"{measure}.csv", JudgedRow) for measure in MEASURES},
         read_json(about) if about.is_file() else {},
-        sum(not row["candidate"].startswith("00") for row in rows),
+        sum(is_found(row["candidate"]) for row in rows),
         next(iter(first.values()), {}),
         len(first.keys() - {row["candidate"] for row in rows}),
     )

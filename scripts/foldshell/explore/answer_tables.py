@@ -9,7 +9,7 @@ from foldshell.explore.answer import KINDS, Point, Searched, choose_point, find_
 from foldshell.records.rivals import FOUND, SMOOTH, TABLE, JudgedRow
 from foldshell.records.summary import SummaryRow
 
-WORDS = {"found": "found", "table": "base in the table", "smooth": "smooth shell"}
+WORDS = {FOUND: "found", TABLE: "base in the table", SMOOTH: "smooth shell"}
 CHECKS = {
     "stability": "stability", "stability_characteristic": "stability",
     "displacement_vertical": "deflection", "displacement_long_term": "creep",

@@ -4,10 +4,11 @@ from collections.abc import Callable, Iterator, Sequence
 
 from foldshell.explore.answer import Point, Searched, choose_point
 from foldshell.explore.bounds import AT_BOUND
+from foldshell.records.candidate import SIZED
 from foldshell.records.rivals import FOUND, SMOOTH, TABLE, JudgedRow, ResizedRow
 
-NAMES = {"found": "the found pattern", "table": "the row of the table that is the base",
-         "smooth": "the smooth shell"}  # fmt: skip
+NAMES = {FOUND: "the found pattern", TABLE: "the row of the table that is the base",
+         SMOOTH: "the smooth shell"}  # fmt: skip
 WORDS = {"rest_fold_angle_deg": "rest fold angle", "sector_angle_deg": "sector angle",
          "strip_grading": "grading of strips", "zigzag": "zig-zag lines", "strip": "strip lines",
          "height_m": "height", "span_m": "span"}  # fmt: skip
@@ -127,7 +128,7 @@ def list_lightest(searched: Sequence[Searched]) -> list[str]:
     pairs = []
     for one in searched:
         rows, found = one.of(TABLE), one.of(FOUND)
-        rows = [point for point in rows if not point.edge_beam and point.state == "sized"]
+        rows = [point for point in rows if not point.edge_beam and point.state == SIZED]
         if rows and found and not one.unseen:
             pairs.append((one.title, found[0].volume / rows[0].volume - 1))
     words = (

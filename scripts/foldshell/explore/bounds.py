@@ -2,7 +2,7 @@
 
 from collections.abc import Sequence
 
-from foldshell.records.candidate import CandidateRecord
+from foldshell.records.candidate import CandidateRecord, is_found
 from foldshell.settings.exploration import Exploration
 
 AT_BOUND = 0.02
@@ -18,7 +18,7 @@ def list_bounds(
         if variable.choices:
             continue
         for record in records:
-            if record.candidate.startswith("00"):
+            if not is_found(record.candidate):
                 continue
             name, width = variable.name, variable.high - variable.low
             given = record.columns[name] if name in record.columns else record.value_of(name)

@@ -16,6 +16,7 @@ from foldshell.explore.judge import judge_loop
 from foldshell.explore.measures import GEOMETRIC, find_broken
 from foldshell.records.analysis import AnalysisRecord
 from foldshell.records.candidate import SIZED, CandidateRecord, ScreenedRecord
+from foldshell.settings.design import leave_out_names
 from foldshell.settings.exploration import ENGINEERING, PAPER, Exploration, list_sizing
 from foldshell.settings.sizing import REINFORCED
 from foldshell.settings.stage import StageSettings
@@ -72,10 +73,9 @@ def evaluate(
     row : columns of designs.tsv; `settings` : Pattern, Fold and those of an analysis
     """
     search = exploration.search
-    values = {key: value for key, value in row.items() if key not in ("design", "tags")}
     blank = CandidateRecord(
-        candidate=name, columns=values, state="crumpled", reason="", feasible=False, broken=(),
-        mesh_subdivisions=search.subdivisions,
+        candidate=name, columns=leave_out_names(row), state="crumpled", reason="", feasible=False,
+        broken=(), mesh_subdivisions=search.subdivisions,
     )  # fmt: skip
     settings = choose_settings(settings, exploration)
     try:
@@ -97,7 +97,7 @@ def screen(
 
     row : columns of designs.tsv; `settings` : Pattern, Fold and those of an analysis
     """
-    columns = {key: value for key, value in row.items() if key not in ("design", "tags")}
+    columns = leave_out_names(row)
     settings = choose_settings(settings, exploration)
     try:
         folded = fold_candidate(make_design(dict(row), exploration.supports), settings)

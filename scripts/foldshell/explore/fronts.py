@@ -1,9 +1,12 @@
 """Which designs no other beats, and by what rank."""
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterable, Sequence
+from typing import TypeVar
 
 from foldshell.records.candidate import CandidateRecord
 from foldshell.settings.exploration import AIMS
+
+Tried = TypeVar("Tried")
 
 
 def rank_by(records: Sequence[CandidateRecord], aim: str) -> list[CandidateRecord]:
@@ -20,14 +23,22 @@ def rank_by(records: Sequence[CandidateRecord], aim: str) -> list[CandidateRecor
 def find_front(records: Sequence[CandidateRecord], aims: Sequence[str]) -> list[CandidateRecord]:
     """Return the candidates that none is better than in one of two aims and as good in the other,
     by the first aim."""
-    first, second = aims
-    front: list[CandidateRecord] = []
-    for record in rank_by(records, first):
-        values = getattr(record, first), getattr(record, second)
-        if None in values:
-            continue
-        least = min((AIMS[second] * getattr(one, second) for one in front), default=float("inf"))
-        if AIMS[second] * values[1] < least:
-            same = front and getattr(front[-1], first) == values[0]
-            front = [*(front[:-1] if same else front), record]
+    known = [one for one in records if all(getattr(one, aim) is not None for aim in aims)]
+    first, second = ((aim, AIMS[aim]) for aim in aims)
+    return sweep_front(
+        sorted(known, key=lambda one: one.candidate),
+        lambda one: first[1] * getattr(one, first[0]),
+        lambda one: second[1] * getattr(one, second[0]),
+    )
+
+
+def sweep_front(
+    tried: Iterable[Tried], first: Callable[[Tried], float], second: Callable[[Tried], float]
+) -> list[Tried]:
+    """Return what none beats in both of two numbers that are to be small, by the first number; of
+    those that are alike in both the one that comes first."""
+    front: list[Tried] = []
+    for one in sorted(tried, key=lambda one: (first(one), second(one))):
+        if not front or second(one) < second(front[-1]):
+            front.append(one)
     return front

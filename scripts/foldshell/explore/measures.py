@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 
 import numpy as np
 
-from foldshell.records.candidate import CandidateRecord
+from foldshell.records.candidate import SIZED, CandidateRecord
 from foldshell.settings.exploration import SearchLimits
 
 BOUNDS = {
@@ -34,7 +34,7 @@ def count_broken(records: Sequence[CandidateRecord]) -> dict[str, int]:
     """Return how many candidates each limit has excluded, most first; states count as limits."""
     found: dict[str, int] = {}
     for record in records:
-        for name in (*record.broken, *([record.state] if record.state != "sized" else [])):
+        for name in (*record.broken, *([record.state] if record.state != SIZED else [])):
             found[name] = found.get(name, 0) + 1
     return dict(sorted(found.items(), key=lambda item: (-item[1], item[0])))
 

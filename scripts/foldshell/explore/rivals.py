@@ -8,7 +8,7 @@ from foldshell.explore.bounds import list_bounds
 from foldshell.explore.evaluate import evaluate
 from foldshell.explore.fronts import rank_by
 from foldshell.explore.rounds import choose_best
-from foldshell.records.candidate import CandidateRecord
+from foldshell.records.candidate import SIZED, CandidateRecord, is_found
 from foldshell.records.rivals import ResizedRow, name_kind
 from foldshell.settings.exploration import PAPER, Exploration
 from foldshell.settings.field import Plain
@@ -24,8 +24,8 @@ def choose_rivals(
 ) -> list[CandidateRecord]:
     """Return the best design that was found, the row of the table that is the base itself (where
     there is none the lightest), the smooth shell."""
-    first = [record for record in records if record.candidate.startswith("00")]
-    rows = [r for r in first if r.state == "sized" and _is_density(exploration, r)]
+    first = [record for record in records if not is_found(record.candidate)]
+    rows = [r for r in first if r.state == SIZED and _is_density(exploration, r)]
     smooth = [record for record in first if record.columns["pattern"] == "smooth"]
     own = [r for r in rows if all(r.columns[key] == exploration.base[key] for key in COUNTS)]
     table = (own or rank_by(rows, "volume_m3"))[:1]
@@ -55,7 +55,7 @@ def describe_exploration(
 def list_factors(exploration: Exploration, rivals: Sequence[CandidateRecord]) -> list[float]:
     """Return the factors to size for: the limit of the search, that of the best, a few more."""
     limit = exploration.limits.buckling_factor_min
-    found = [r.buckling_factor_min for r in rivals if r.candidate[:2] != "00"]
+    found = [r.buckling_factor_min for r in rivals if is_found(r.candidate)]
     more = [round(factor, 2) for factor in found if factor is not None]
     return sorted({limit, *(factor for factor in (*FACTORS, *more) if factor > limit)})
 
@@ -86,7 +86,7 @@ def resize(
 
 
 def _keeps(known: CandidateRecord | None, factor: float) -> bool:
-    sized = known is not None and known.state == "sized"
+    sized = known is not None and known.state == SIZED
     return sized and (known.buckling_factor_min or 0.0) >= size_alike(factor)["buckling_factor_min"]
 
 

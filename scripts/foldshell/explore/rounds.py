@@ -10,7 +10,7 @@ from foldshell.explore.fronts import find_front, rank_by
 from foldshell.explore.names import name_candidate
 from foldshell.explore.propose import choose_batch, propose_points
 from foldshell.explore.slopes import find_slopes, size_state
-from foldshell.records.candidate import CandidateRecord, ScreenedRecord
+from foldshell.records.candidate import CandidateRecord, ScreenedRecord, is_found
 from foldshell.settings.exploration import Exploration
 from foldshell.settings.field import Plain
 from foldshell.settings.stage import StageSettings
@@ -94,7 +94,7 @@ def choose_best(
     exploration: Exploration, records: Sequence[CandidateRecord], count: int
 ) -> list[CandidateRecord]:
     """Return the best designs: of one aim in order, of two the front first; none alike."""
-    kept = [record for record in records if record.feasible and record.candidate[:2] != "00"]
+    kept = [record for record in records if record.feasible and is_found(record.candidate)]
     if len(exploration.aims) == 2:
         front = find_front(kept, exploration.aims)
         kept = [*front, *(record for record in rank_by(kept, exploration.aims[0])

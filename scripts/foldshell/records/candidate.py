@@ -5,7 +5,8 @@ from pathlib import Path
 
 from foldshell.files.errors import InputError
 from foldshell.files.whole import read_json, write_json
-from foldshell.records.entry import COUNT, entry
+from foldshell.records.entry import COUNT, entry, same
+from foldshell.records.reinforcement import ReinforcementRecord
 from foldshell.settings.exploration import SPAN_RATIO
 
 ANGLES = ("sector_angle_deg", "rest_fold_angle_deg")
@@ -20,6 +21,12 @@ ENGINEERED = ("engineering_volume_m3", "steel_kg", "co2_kg", "cost")
 """The same of one that the engineering checks have seen."""
 SIZED = "sized"
 """State of a candidate that ended as Table 3 of the paper asks."""
+
+
+def is_found(candidate: str) -> bool:
+    """Tell whether a search has found a candidate; those of round 00 are what it is held against:
+    rows of the table and the smooth shell."""
+    return not candidate.startswith("00")
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -61,9 +68,9 @@ class CandidateRecord:
     engineering_volume_m3: float | None = entry(
         "concrete and steel of a shell sized by measure reinforced", "m3", left_out=True
     )
-    steel_kg: float | None = entry("reinforcement with least steel", "kg", left_out=True)
-    co2_kg: float | None = entry("CO2 equivalent of concrete, steel, folds", "kg", left_out=True)
-    cost: float | None = entry("by the prices of the settings", left_out=True)
+    steel_kg: float | None = same(ReinforcementRecord, "steel_kg", left_out=True)
+    co2_kg: float | None = same(ReinforcementRecord, "co2_kg", left_out=True)
+    cost: float | None = same(ReinforcementRecord, "cost", left_out=True)
     mesh_subdivisions: int = entry("subdivisions of a facet edge", COUNT)
     geometry: str | None = entry(
         "vertices by 3 and panels by 4, for thumbnails: base64 of 16-bit numbers", left_out=True

@@ -2,7 +2,9 @@
 
 from dataclasses import dataclass
 
-from foldshell.records.entry import COUNT, entry
+from foldshell.records.candidate import is_found
+from foldshell.records.entry import COUNT, entry, same
+from foldshell.records.reinforcement import ReinforcementRecord
 
 KEPT = 0.99
 """Share of a buckling factor that is due from which it counts as kept: the rule ends beside it."""
@@ -11,9 +13,13 @@ FOUND, TABLE, SMOOTH = "found", "table", "smooth"
 
 def name_kind(candidate: str, pattern: object) -> str:
     """Return what a candidate is: found by a search, a row of the table, or the smooth shell."""
-    if not candidate.startswith("00"):
+    if is_found(candidate):
         return FOUND
     return SMOOTH if pattern == "smooth" else TABLE
+
+
+def _steel(name: str):
+    return same(ReinforcementRecord, name, empty=True)
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -59,8 +65,8 @@ class JudgedRow:
     displacement_due_m: float | None = entry("the largest that is allowed", "m", default=None)
     strut: float | None = entry("largest strut over what concrete bears", "-", default=None)
     shear_share: float | None = entry("panels whose shear is over v_Rd,c", "-", default=None)
-    steel_kg_m2: float | None = entry("reinforcement by area", "kg/m2", default=None)
-    steel_kg: float | None = entry("reinforcement", "kg", default=None)
-    co2_kg: float | None = entry("greenhouse gases of concrete, steel, folds", "kg", default=None)
-    co2_low_kg: float | None = entry("at the lower end of the factors", "kg", default=None)
-    co2_high_kg: float | None = entry("at the upper end of the factors", "kg", default=None)
+    steel_kg_m2: float | None = _steel("steel_kg_m2")
+    steel_kg: float | None = _steel("steel_kg")
+    co2_kg: float | None = _steel("co2_kg")
+    co2_low_kg: float | None = _steel("co2_low_kg")
+    co2_high_kg: float | None = _steel("co2_high_kg")

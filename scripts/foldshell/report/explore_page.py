@@ -11,7 +11,7 @@ from foldshell.files.whole import Json
 from foldshell.records.candidate import ENGINEERED, CandidateRecord
 from foldshell.records.summary import SummaryRow
 from foldshell.report.markup import Cell, Table, make_table, render
-from foldshell.settings.design import COLUMNS
+from foldshell.settings.design import COLUMNS, NAMING
 from foldshell.settings.exploration import AIMS, Exploration
 from foldshell.settings.sizing import REINFORCED
 from foldshell.settings.stage import flatten, to_plain
@@ -208,7 +208,7 @@ def _pack(
                      "text": _is_text(records, name),
                      "better": AIMS.get(name, 0)} for name in names],
         "aims": list(_pair(exploration)),
-        "table": [column for column in COLUMNS if column not in ("design", "tags")],
+        "table": [column for column in COLUMNS if column not in NAMING],
         "designs": [
             {
                 "name": record.candidate, "round": int(record.candidate.split("-")[0]),

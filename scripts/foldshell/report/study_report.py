@@ -140,9 +140,8 @@ def write_study_report(
                   for name, sheet in files.tiles.items()],
         figures=[_show_figure(name, path) for name, path in files.figures.items()],
         left_out=left_out,
-        claims=files.claims,
         chapter=files.chapter,
-        **_describe_standing(files),
+        **_describe_claims(files),
         verification=make_verification(files.designs),
         benchmarks=render_markdown(files.verification),
         loads=describe_loads(settings),
@@ -158,10 +157,11 @@ def write_study_report(
     return page
 
 
-def _describe_standing(files: StudyFiles) -> dict[str, Any]:
-    """Return the claims on shells that stand, and the table of designs under several settings."""
-    rows = [entry.row for entry in files.designs]
-    return {"standing": files.standing, "sized_for": compare_settings(rows, files.beside)}
+def _describe_claims(files: StudyFiles) -> dict[str, Any]:
+    """Return the claims, those on shells that stand, and the table of designs under several
+    settings."""
+    sized_for = compare_settings([entry.row for entry in files.designs], files.beside)
+    return {"claims": files.claims, "standing": files.standing, "sized_for": sized_for}
 
 
 def _make_card(entry: DesignEntry, columns: Sequence[Column], to_results: str, tiles: Json) -> Json:

@@ -28,7 +28,9 @@ def _make_row(row: SummaryRow, folder: Path) -> JudgedRow:
     plain = {key: getattr(row, key) for key in COPIED}
     path = folder / "checks/engineering.json"
     more = _judge(read_record(path, EngineeringRecord)) if path.is_file() else {}
-    return JudgedRow(kind=name_kind(row.design[-5:], row.pattern), **plain, **more)
+    return JudgedRow(
+        kind=name_kind("-".join(row.design.split("-")[-2:]), row.pattern), **plain, **more
+    )
 
 
 def _judge(record: EngineeringRecord) -> dict[str, float | str | None]:

@@ -1,17 +1,20 @@
 """One design of the study: the columns of the table of designs; lengths in m."""
 
 import dataclasses
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from foldshell.files.formats import FOLDED_FORMATS, PATTERN_FORMATS
 from foldshell.files.units import FACTORS
-from foldshell.settings.field import Group, list_settings, setting, settings_group
+from foldshell.settings.field import Group, Plain, list_settings, setting, settings_group
 from foldshell.settings.load_table import PAPER
 from foldshell.settings.outline_text import OUTLINE_FORMATS, is_outline_file
 from foldshell.settings.support_row import SUPPORTS, PlainRow, SupportRow
 
 Row = dict[str, str | int | float]
 """One design by the columns of designs.tsv, as Snakemake's `params` and files hold it."""
+NAMING = ("design", "tags")
+"""Columns that say nothing of the design itself."""
 
 SURFACES = ("paraboloid", "hypar", "hypar_twist", "arch", "arch_strip")
 """Target surfaces that are known by name; others are mesh files."""
@@ -224,7 +227,7 @@ class Design(DesignColumns):
         silent = {key for key in SILENT_AT_ZERO if not row[key]} | {"settings"}
         silent |= set() if self.files else {"folded", "file_unit"}
         silent |= set() if self.is_cut else {"outline", "openings"}
-        return {key: row[key] for key in row if key not in {"design", "tags"} | silent}
+        return {key: row[key] for key in row if key not in {*NAMING, *silent}}
 
     @classmethod
     def from_row(cls, row: Row) -> "Design":
@@ -240,3 +243,8 @@ FILE_COLUMNS = ("surface", "pattern", "folded", "outline", "openings")
 _COLUMNS = list_settings(DesignColumns)
 COLUMNS = ("design", *(known.key for known in _COLUMNS.values()), "tags")
 """Columns of designs.tsv."""
+
+
+def leave_out_names(row: Mapping[str, object]) -> Plain:
+    """Return the columns of a row but name and tags."""
+    return {key: value for key, value in row.items() if key not in NAMING}

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import replace
 
 from foldshell.files.errors import InputError
-from foldshell.settings.design import Design
+from foldshell.settings.design import Design, leave_out_names
 from foldshell.settings.designs import check_row
 from foldshell.settings.exploration import ENGINEERING_AIMS, Exploration, list_sizing
 from foldshell.settings.field import Plain
@@ -19,8 +19,8 @@ def settle_exploration(exploration: Exploration, settings: Settings, source: str
     Raises `InputError` for ends of ranges and choices that make no design of the table, for an
     aim that no design has under these settings, for a measure without what the search needs.
     """
-    base = _check(exploration.base, settings, f"{source}: base")
-    settled = replace(exploration, base={**exploration.base, **_row(base)})
+    base = leave_out_names(_check(exploration.base, settings, f"{source}: base").to_row())
+    settled = replace(exploration, base={**exploration.base, **base})
     for place, values in list_ends(settled):
         _check(settled.make_row("base", values), settings, f"{source}: variables, {place}")
     _check_measure(settled, settings, source)
@@ -38,10 +38,6 @@ def list_ends(exploration: Exploration) -> Iterator[tuple[str, Plain]]:
     for variable in exploration.variables:
         for word in variable.choices:
             yield f"{variable.name} {word}", ends["least"] | {variable.name: word}
-
-
-def _row(design: Design) -> Plain:
-    return {key: value for key, value in design.to_row().items() if key not in ("design", "tags")}
 
 
 def _check(row: Plain, settings: Settings, place: str) -> Design:

@@ -8,7 +8,7 @@ from pathlib import Path
 from foldshell.files.errors import InputError
 from foldshell.settings.check import Reader
 from foldshell.settings.config_file import read_config
-from foldshell.settings.design import Design, DesignColumns
+from foldshell.settings.design import Design, DesignColumns, leave_out_names
 from foldshell.settings.exploration import (
     AIMS,
     DerivedColumns,
@@ -59,8 +59,7 @@ def read_exploration(path: str | Path, defaults: DesignColumns) -> Exploration:
 
 
 def _complete(base: Plain, defaults: DesignColumns) -> Plain:
-    row = Design(name="base", **(vars(defaults))).to_row()
-    return {key: row[key] for key in row if key not in ("design", "tags")} | base
+    return leave_out_names(Design(name="base", **vars(defaults)).to_row()) | base
 
 
 def _columns() -> dict[str, Setting]:
