@@ -75,6 +75,7 @@ def utilization_of_combinations(
     combination = np.empty((displacement.shape[1], len(thickness), *points.shape[:2]))
 
     def evaluate(column: int) -> None:
+        """Fill in the criterion of one combination at every point."""
         own = resultants.column(column)
         stress = outer_stresses(own, thickness, basis)[:, :, 0]
         value = criterion(np.moveaxis(stress, 1, -1), material).max(axis=0)

@@ -19,12 +19,10 @@ from foldshell.records.analysis import AnalysisRecord
 from foldshell.records.mesh_convergence import LaidRecord, ReinforcementStudy
 from foldshell.results.governing import choose_combinations
 from foldshell.settings.material import Material
-from foldshell.settings.reinforcement import Reinforcement
+from foldshell.settings.reinforcement import USES, Reinforcement
 from foldshell.settings.stage import StageSettings
 from foldshell.shell.analysis import AnalysisResult, ShellModel
 from foldshell.shell.stress import StressResultants, stress_resultants
-
-USES = ("strut", "ratio", "shear", "fit")
 
 
 @dataclass(frozen=True)

@@ -18,11 +18,11 @@ from foldshell.checks.verdict import Found, hold_against
 from foldshell.records.reinforcement import BarsRecord, ReinforcementRecord
 from foldshell.results.engineering_state import EngineeringState
 from foldshell.results.reinforcement_places import CHECKS, Places, find_places
+from foldshell.settings.reinforcement import USES
 from foldshell.settings.stage import StageSettings
 from foldshell.shell.stress import StressResultants, stress_resultants
 from foldshell.sizing.classes import group_thicknesses
 
-USES = ("strut", "ratio", "shear", "fit")
 WORDS = {
     "strut": "struts, EN 1992-1-1 Annex F, share of nu f_cd",
     "ratio": "steel of one direction over the largest ratio, 9.2.1.1 (3)",
@@ -65,7 +65,8 @@ def reinforce_state(
         return Reinforced(refused, "", None, {}, {})
     width = given.checks.strip_width
     model = build_concrete_model(state.case.model.operators, panels, asked, width)
-    use = find_panel_use(model, _cut(state.resultants, 0, state.strength_count), thickness, USES)
+    strength = state.resultants.columns(slice(state.strength_count))
+    use = find_panel_use(model, strength, thickness, USES)
     cracks = find_crack_widths(
         model, _find_sustained(state, given.checks.creep_coefficient), use.steel
     )
@@ -79,16 +80,12 @@ def reinforce_state(
     return Reinforced("", fit, record, _hold(shares, places, find_mesh_errors(errors)), columns)
 
 
-def _cut(found: StressResultants, first: int, last: int) -> StressResultants:
-    return replace(found, force=found.force[..., first:last], moment=found.moment[..., first:last])
-
-
 def _find_sustained(state: EngineeringState, creep: float) -> StressResultants:
     """Resultants of the quasi-permanent combinations; of the characteristic ones where the aged
     shell has no answer."""
     aged = state.long_term
     if aged is None or aged.state in ("unstable", "mechanism"):
-        return _cut(state.resultants, state.strength_count, len(state.short.names))
+        return state.resultants.columns(slice(state.strength_count, len(state.short.names)))
     material = state.case.material
     modulus = material.youngs_modulus / (1 + creep)
     return stress_resultants(

@@ -9,9 +9,10 @@ from foldshell.checks.concrete.envelope import Envelope
 from foldshell.checks.concrete.model import ConcreteModel
 from foldshell.checks.concrete.use import PanelUse
 from foldshell.checks.strips import NO_EDGE
+from foldshell.settings.reinforcement import USES
 from foldshell.shell.mesh import ShellMesh
 
-CHECKS = ("strut", "ratio", "shear", "fit", "crack", "punching")
+CHECKS = (*USES, "crack", "punching")
 
 
 @dataclass(frozen=True)

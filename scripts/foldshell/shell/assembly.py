@@ -214,6 +214,7 @@ def _packed_places(dofs, offset, groups, local_group, columns: _GroupColumns) ->
     put = np.empty((len(dofs), width * (width + 1) // 2), dtype=kind)
 
     def fill(part: slice) -> None:
+        """Put in the places of some elements."""
         own = put[part]
         for place, i, j in _list_places(dofs[part], offset, groups[part], members, columns):
             i, j = np.maximum(i, j), np.minimum(i, j)

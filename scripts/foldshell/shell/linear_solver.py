@@ -69,6 +69,7 @@ class CholmodFactor:
         parts = [slice(0, middle), slice(middle, None)] if count_threads() > 1 else [slice(None)]
 
         def solve(part: slice) -> None:
+            """Replace some columns of the block by their solutions."""
             self._library.solve(self._factor, block[:, part], into=block[:, part])
 
         list(run_parts(solve, parts))

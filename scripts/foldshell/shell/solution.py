@@ -181,6 +181,7 @@ class Riders:
         """
 
         def solve_both(forces: np.ndarray) -> np.ndarray:
+            """Return K^-1 forces; the first time the riders are answered in the same call."""
             if self._waiting is None:
                 return solve(forces)
             both = solve(np.hstack([forces, self._waiting]))

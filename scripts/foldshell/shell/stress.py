@@ -27,8 +27,11 @@ class StressResultants:
 
     def column(self, number: int) -> "StressResultants":
         """Return those of one load column."""
-        one = slice(number, number + 1)
-        return StressResultants(self.force[..., one], self.moment[..., one], self.jump[..., one])
+        return self.columns(slice(number, number + 1))
+
+    def columns(self, part: slice) -> "StressResultants":
+        """Return those of some load columns."""
+        return StressResultants(self.force[..., part], self.moment[..., part], self.jump[..., part])
 
 
 def stress_resultants(

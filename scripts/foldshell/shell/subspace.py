@@ -123,6 +123,7 @@ def _measure_energy(vectors: np.ndarray, forces: np.ndarray) -> np.ndarray:
     """Return the products (k,) of the long rows of two arrays (k, size)."""
 
     def measure(part: slice) -> np.ndarray:
+        """Return the products of some columns."""
         return np.einsum("ks,ks->k", vectors[:, part], forces[:, part])
 
     return reduce(np.add, run_parts(measure, divide_rows(vectors.shape[1], vectors.shape[1])))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from foldshell.checks.concrete.central_mesh import design_central_mesh
-from foldshell.checks.concrete.membrane import concrete_forces, design_membrane
+from foldshell.checks.concrete.membrane import design_membrane
 from foldshell.checks.concrete.sandwich import Levels, design_sandwich, split_between_covers
 
 FCD = 25e3 / 1.5
@@ -36,6 +36,11 @@ def principal(force):
         np.hypot((force[..., 0] - force[..., 1]) / 2, force[..., 2]),
     )
     return centre + radius, centre - radius
+
+
+def concrete_forces(force, steel):
+    """Return n_c = n - (f_x, f_y, 0): what the concrete carries beside its bars."""
+    return np.concatenate([force[..., :2] - steel, force[..., 2:]], axis=-1)
 
 
 def random_states(count=1_000_000, seed=4):
@@ -156,7 +161,8 @@ def test_central_mesh_in_bending_and_in_tension():
 
 
 def test_covers_share_forces_by_their_levers():
-    shared = split_between_covers(
-        np.array([30.0, 0, 0]), np.array([1.0, 0, 0]), np.array([0.02, 0.04])
+    bottom, top = split_between_covers(
+        np.array([30.0, 0, 0]), np.array([1.0, 0, 0]), np.array(0.02), np.array(0.04)
     )
-    assert shared[:, 0] == pytest.approx([(0.04 * 30 + 1) / 0.06, (0.02 * 30 - 1) / 0.06])
+    assert bottom == pytest.approx([(0.04 * 30 + 1) / 0.06, 0, 0])
+    assert top == pytest.approx([(0.02 * 30 - 1) / 0.06, 0, 0])

@@ -1,7 +1,7 @@
 """Largest means of each panel, and where and under which combination they stand."""
 
 from collections.abc import Iterator
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -32,10 +32,7 @@ def split_combinations(
     elements, columns = resultants.force.shape[0], resultants.force.shape[-1]
     size = max(1, NUMBERS // (elements * len(sampling.points) * width))
     for start in range(0, columns, size):
-        part = slice(start, start + size)
-        yield replace(
-            resultants, force=resultants.force[..., part], moment=resultants.moment[..., part]
-        )
+        yield resultants.columns(slice(start, start + size))
 
 
 def take_means(sampling: Sampling, values: np.ndarray) -> np.ndarray:

@@ -82,13 +82,3 @@ def resolve_membrane(x: np.ndarray, y: np.ndarray, xy: np.ndarray) -> Pull:
     strut = np.where(cracked, steep + add, principal)
     first = np.where(cracked, np.maximum(shear + low, 0.0), 0.0)
     return Pull(first, np.where(cracked, second, 0.0), strut, cracked)
-
-
-def concrete_forces(force: np.ndarray, steel: np.ndarray) -> np.ndarray:
-    """n_c = n - (f_x, f_y, 0): what the concrete carries (..., 3) kN/m, in equilibrium with bars.
-
-    force (..., 3), steel (..., 2) kN/m.
-    """
-    carried = np.array(force, dtype=float)
-    carried[..., :2] -= steel
-    return carried

@@ -12,7 +12,8 @@ import numpy as np
 from foldshell.checks.concrete.membrane import Pull, resolve_membrane
 
 PASSES = 3
-"""Times that levers are found anew; the third moves that of a slab by less than 0.1 %."""
+"""Times that levers are found anew; the third moves that of a slab by less than 0.1 %.
+Where concrete crushes 3 % may be left."""
 DEPTH_MOST = 0.98
 """Of the thickness that compression of one cover may fill. Beyond half of it concrete crushes, but
 the lever goes on falling with the depth: held at that of half the sheet, the steel of panels that
@@ -51,18 +52,6 @@ class SandwichDesign:
     strut_use: np.ndarray
     lever: np.ndarray
     force: np.ndarray
-
-
-def split_between_covers(force: np.ndarray, moment: np.ndarray, lever: np.ndarray) -> np.ndarray:
-    """n_bottom = (z_top n + m) / z, n_top = (z_bottom n - m) / z, with z = z_bottom + z_top.
-
-    force, moment (..., 3) kN/m and kNm/m; lever (..., 2) m; returns (..., 2, 3) kN/m.
-    """
-    bottom, top = lever[..., 0, None], lever[..., 1, None]
-    return (
-        np.stack([top * force + moment, bottom * force - moment], axis=-2)
-        / ((bottom + top)[..., None])
-    )
 
 
 def design_sandwich(
@@ -113,18 +102,24 @@ def resolve_covers(
     at_steel = half - levels.steel
     bottom = top = at_steel
     for _ in range(PASSES):
-        below, above = (resolve_membrane(*one) for one in _share(n, m, bottom, top))
+        below, above = (resolve_membrane(*one) for one in split_between_covers(n, m, bottom, top))
         bottom, top = (_find_lever(one, half, at_steel, levels) for one in (below, above))
     found = []
-    for force, lever in zip(_share(n, m, bottom, top), (bottom, top), strict=True):
+    forces = split_between_covers(n, m, bottom, top)
+    for force, lever in zip(forces, (bottom, top), strict=True):
         pull = resolve_membrane(*force)
         strength = np.where(pull.cracked, levels.strut_strength, levels.strength)
         found.append(Cover(force, pull, lever, pull.strut / (half * strength)))
     return found[0], found[1]
 
 
-def _share(n, m, bottom: np.ndarray, top: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Return the forces (3, k) of bottom and top, as `split_between_covers`."""
+def split_between_covers(
+    n: np.ndarray, m: np.ndarray, bottom: np.ndarray, top: np.ndarray
+) -> tuple[np.ndarray, np.ndarray]:
+    """n_bottom = (z_top n + m) / z, n_top = (z_bottom n - m) / z, with z = z_bottom + z_top.
+
+    n, m (3, k) kN/m and kNm/m, levers `bottom` and `top` (k,) m; returns two (3, k) kN/m.
+    """
     total = 1 / (bottom + top)
     turned = m * total
     return n * (top * total) + turned, n * (bottom * total) - turned
