@@ -9,10 +9,10 @@ from foldshell.records.analysis_arrays import AnalysisArrays
 from foldshell.records.arrays import read_checked_arrays, read_typed_arrays
 from foldshell.records.files import write_record
 from foldshell.records.sheet_arrays import FoldedArrays
+from foldshell.results.analysis_start import pick_known
 from foldshell.results.governing import list_compared
 from foldshell.results.mesh_convergence import DesignOnMeshes
 from foldshell.results.mesh_order import study_meshes
-from foldshell.results.mode_start import pick_known
 from foldshell.results.reinforced_meshes import ask_concrete
 from foldshell.settings.analysed import MEASURED
 from foldshell.settings.stage import Plain, read_stage

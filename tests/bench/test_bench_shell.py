@@ -118,6 +118,8 @@ def test_error_against_cost_on_folds():
                     rows.append(row)
     write("folded_error.csv", rows, (*FIELDS, "error"))
     draw_error(rows, RESULTS / "folded_error.png")
+    ours = [row for row in rows if row["code"] == "foldshell hhj" and row["n"] == 4]
+    assert max(abs(row["error"]) for row in ours) < 0.05
     sums = compare_at_five_percent(rows)
     print(*(f"{code}: {seconds:.3g} s, {error:.1%}" for code, (seconds, error) in sums.items()))
     for own in ("foldshell hhj", f"foldshell {STIFF}"):

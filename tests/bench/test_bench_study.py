@@ -14,18 +14,22 @@ from pathlib import Path
 import pytest
 from test_bench_loop import AGAINST, RESULTS, ROOT, other  # noqa: F401 - a fixture
 
+sys.path.insert(0, str(ROOT / "tests" / "workflow"))
+from study_runner import copy_code
+
 pytestmark = pytest.mark.bench
 STUDY = os.environ.get("BENCH_STUDY", "demo")
 
 
-def run_study(code: Path, results: Path) -> Counter[str]:
-    """Return the CPU s of the jobs of each rule, from nothing, one job at a time."""
-    command = [
-        sys.executable, "-m", "snakemake", "--cores", "1", "--nolock",
-        "--config", f"study={STUDY}", f"results={results}",
-    ]  # fmt: skip
-    subprocess.run(command, cwd=code, check=True, capture_output=True)
-    return sum_jobs(results / "benchmarks")
+def run_study(code: Path) -> Counter[str]:
+    """Return the CPU s of the jobs of each rule, from nothing, one job at a time.
+
+    `code` is a folder of its own, without results.
+    """
+    command = [sys.executable, "-m", "snakemake", "--cores", "1", "--config", f"study={STUDY}"]
+    done = subprocess.run(command, cwd=code, capture_output=True, text=True)
+    assert not done.returncode, done.stderr[-3000:]
+    return sum_jobs(code / "results" / "benchmarks")
 
 
 def sum_jobs(folder: Path) -> Counter[str]:
@@ -39,7 +43,7 @@ def sum_jobs(folder: Path) -> Counter[str]:
 
 
 def test_share_of_each_rule_in_a_study(other, tmp_path):  # noqa: F811
-    own, before = run_study(ROOT, tmp_path / "own"), run_study(other, tmp_path / "before")
+    own, before = run_study(copy_code(tmp_path / "own")), run_study(other)
     total = own.total()
     RESULTS.mkdir(parents=True, exist_ok=True)
     with (RESULTS / "study.csv").open("w", newline="", encoding="utf-8") as stream:

@@ -14,14 +14,14 @@ from foldshell.records.mesh_convergence import (
     ReferenceMesh,
 )
 from foldshell.records.plain import to_plain
-from foldshell.results.mean_fold import is_folded
-from foldshell.results.mode_start import (
+from foldshell.results.analysis_start import (
     KnownState,
     MeshBefore,
     analyse_after,
     analyse_known,
     remember,
 )
+from foldshell.results.mean_fold import is_folded
 from foldshell.results.reinforced_meshes import (
     ConcreteAsked,
     measure_reinforced,

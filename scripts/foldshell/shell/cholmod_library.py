@@ -86,16 +86,17 @@ class CholmodLibrary:
             function = getattr(library, f"cholmod_l_{name}")
             function.restype, function.argtypes = result, arguments
             setattr(self, f"_{name}", function)
-        _ = self._common
+        self._own.common = self._begin()
 
     @property
     def _common(self) -> ctypes.Array:
-        """The settings and the workspace of this thread; raises `OSError` for another layout."""
+        """The settings and the workspace of this thread."""
         if not hasattr(self._own, "common"):
             self._own.common = self._begin()
         return self._own.common
 
     def _begin(self) -> ctypes.Array:
+        """Return a workspace with the settings in use; raises `OSError` for another layout."""
         common = ctypes.create_string_buffer(COMMON_BYTES)
         if not self._start(common):
             raise OSError("cholmod_l_start")

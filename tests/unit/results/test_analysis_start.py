@@ -7,9 +7,9 @@ import pytest
 
 from foldshell.loads.cases import make_load_cases
 from foldshell.records.plain import to_plain
-from foldshell.results import mode_start
+from foldshell.results import analysis_start
+from foldshell.results.analysis_start import pick_known
 from foldshell.results.mesh_convergence import DesignOnMeshes, study_design
-from foldshell.results.mode_start import pick_known
 from foldshell.shell.analysis import ShellAnalysis
 from foldshell.sizing.case import open_case
 from foldshell.sizing.iteration import IterationTask
@@ -105,7 +105,7 @@ def test_what_is_missing_is_searched_for(delivered):
     parts = [replace(known, factors=None), replace(known, displacement=None)]
     for part in parts:
         compare(study_design(cold, 2), study_design(replace(cold, known=part), 2), 1e-4)
-    assert mode_start.remember(None, ResultOfNoBuckling()) is None
+    assert analysis_start.remember(None, ResultOfNoBuckling()) is None
 
 
 class ResultOfNoBuckling:
