@@ -161,7 +161,7 @@ def _make_point(row: dict[str, str], first: dict[str, dict[str, str]]) -> Point:
         row["candidate"], float(row["volume_m3"]), float(row["buckling_factor_min"] or "inf"),
         int(row["panels"]), name_kind(row["candidate"], row["pattern"]),
         row["feasible"] == "True", row["state"], layout,
-        float(given.get("edge_beam_depth_m") or 0) > 0,
+        float(given.get("edge_beam_depth_m") or 0) != 0,  # below the shell where it is negative
         *(float(row[key] or 0) for key in ("crease_length_m", "depth_m", "area_m2")),
         *(float(row[key]) if row[key] else None for key in
           ("edge_strain_max", "planarity_max", "plan_coverage")),

@@ -21,9 +21,9 @@ FACTORS = (
     "were tried, by the rule of the search, and the three shells sized anew for each factor:"
 )
 STEEL = (
-    "The same shells sized for reinforced concrete by the settings of `config/reinforced.yaml` "
-    "(buckling factor of at least 6 under the loop's combinations); the verdict has combinations "
-    "of its own and asks for its own factor."
+    "The same shells sized for reinforced concrete by the group `sizing` of "
+    "`config/reinforced.yaml`, under the combinations of the study's loop; the verdict has "
+    "combinations of its own and asks for its own factor."
 )
 
 

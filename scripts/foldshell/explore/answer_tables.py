@@ -156,7 +156,7 @@ def _find_row(one: Searched, point: Point, summary: Sequence[SummaryRow]) -> Sum
         (row for row in summary if (row.zigzag, row.strip) == point.layout
          and bool(row.edge_beam_depth_m) == point.edge_beam
          and row.pattern == "miura" and all(getattr(row, key) == base.get(key) for key in alike)
-         and not row.rest_fold_angle_deg and not row.sector_angle_deg),
+         and not (row.rest_fold_angle_deg or row.sector_angle_deg or row.settings)),
         None,
     )  # fmt: skip
 

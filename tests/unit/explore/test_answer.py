@@ -110,6 +110,22 @@ def test_rows_of_the_table_have_both_verdicts(table):
     assert "has not been run" not in text
 
 
+def test_an_edge_beam_below_the_shell_makes_another_row(table):
+    """Its depth is negative: the row of the study without a beam is none of its own."""
+    (table.parent / "rounds/00").mkdir(parents=True)
+    (table.parent / "rounds/00/candidates.tsv").write_text(
+        "design\tzigzag\tstrip\tedge_beam_depth_m\n00-00\t15\t16\t-0.5\n00-02\t8\t32\t0.0\n"
+    )
+    rows = [make_row("a", zigzag=15, strip=16, volume_m3=97.0)]
+    text = write_answer([read_searched(table)], PICTURES, rows)
+    assert "| 15 x 16, edge beam | 210 | 100.0 (5.0) | – |" in text
+    beam = replace(rows[0], edge_beam_depth_m=-0.5)
+    text = write_answer([read_searched(table)], PICTURES, [beam])
+    assert "| 15 x 16, edge beam | 210 | 100.0 (5.0) | 97.0 (4.5) |" in text
+    own = replace(beam, settings="config/reinforced.yaml")
+    assert "97.0 (4.5)" not in write_answer([read_searched(table)], PICTURES, [own])
+
+
 def test_confirmed_designs_are_those_that_both_codes_and_the_limit_bear_out(table):
     write_rows(table.with_name("confirmed.csv"), SummaryRow, [
         make_row("roof-01-00"), make_row("roof-01-01", crosscheck="fail"),
