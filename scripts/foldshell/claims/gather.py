@@ -1,6 +1,7 @@
 """Everything that claims rest on, read from the results folder."""
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from pathlib import Path
 from typing import NamedTuple
 from zipfile import BadZipFile
@@ -39,13 +40,28 @@ def read_sources(
     InputError
         for a file that is missing or damaged.
     """
-    try:
+    with name_damage():
         return _read(results, designs, variants, settings)
+
+
+@contextmanager
+def name_damage() -> Iterator[None]:
+    """Make an `InputError` with its name of what a missing or damaged file raises."""
+    try:
+        yield
     except InputError:
         raise
     except (OSError, ValueError, KeyError, BadZipFile) as error:
         found = getattr(error, "filename", None) or error
         raise InputError(f"claims: {found}: missing or damaged: {REMEDY}") from None
+
+
+def read_flats(results: Path, designs: Sequence[DesignRow]) -> dict[str, FlatEqualRecord]:
+    """Return what the flat sheets of equal volume do, by folded design."""
+    return {
+        row.design: read_record(results / row.design / "flat_equal.json", FlatEqualRecord)
+        for row in designs
+    }
 
 
 def _read(results: Path, designs, variants, settings) -> Sources:
@@ -56,10 +72,7 @@ def _read(results: Path, designs, variants, settings) -> Sources:
         equal=[start for _, start in both],
         folds=[read_fold(row, results / row.design) for row in designs["folds"]],
         kinematics=read_record(results / "kinematics.json", KinematicsRecord),
-        flats={
-            row.design: read_record(results / row.design / "flat_equal.json", FlatEqualRecord)
-            for row in designs["flats"]
-        },
+        flats=read_flats(results, designs["flats"]),
         variants={
             variant: [
                 read_variant(

@@ -4,14 +4,13 @@ from collections.abc import Sequence
 from dataclasses import fields, replace
 from pathlib import Path
 from typing import NamedTuple
-from zipfile import BadZipFile
 
 from foldshell.claims.design_result import DesignResult
+from foldshell.claims.gather import name_damage, read_flats
 from foldshell.claims.read import read_design_result
 from foldshell.claims.reinforced_state import list_errors
-from foldshell.files.errors import InputError
 from foldshell.records.design_row import DesignRow
-from foldshell.records.files import REMEDY, read_record
+from foldshell.records.files import read_record
 from foldshell.records.measures import FlatEqualRecord, Geometry
 from foldshell.records.reinforced_claims import ReinforcedRecord
 from foldshell.settings.stage import StageSettings
@@ -44,19 +43,11 @@ def read_reinforced_sources(
     InputError
         for a file that is missing or damaged.
     """
-    try:
+    with name_damage():
         both = [read_design_result(row, results / row.design, settings) for row in designs]
         states = [read_record(results / FOLDER / f"{row.design}.json", ReinforcedRecord)
                   for row in designs]  # fmt: skip
-        equal_volume = {
-            row.design: read_record(results / row.design / "flat_equal.json", FlatEqualRecord)
-            for row in flats
-        }
-    except InputError:
-        raise
-    except (OSError, ValueError, KeyError, BadZipFile) as error:
-        found = getattr(error, "filename", None) or error
-        raise InputError(f"claims: {found}: missing or damaged: {REMEDY}") from None
+        equal_volume = read_flats(results, flats)
     paper = [final for final, _ in both]
     return ReinforcedSources(
         paper=paper,

@@ -13,13 +13,8 @@ and the buckling factor is what is due, and the statements C4 to C13 asked again
 what it came to on the designs as the paper's criteria sized them, by its measure and by strips.
 docs/study.md explains the method, docs/concrete.md the checks.
 """
-WORDS = {
-    "survives": "survives",
-    "falls": "falls",
-    "never held": "did not hold before",
-    "comes to hold": "comes to hold",
-    "cannot be told": "cannot be told",
-}
+WORDS = {"never held": "did not hold before"}
+"""What becomes of a claim in other words than in its record."""
 
 
 def write_reinforced_claims(
@@ -33,7 +28,7 @@ def write_reinforced_claims(
             verdict_label(one.paper.verdict),
             verdict_label(one.by_strips.verdict) if one.by_strips else "-",
             verdict_label(one.verdict),
-            WORDS[one.survives],
+            WORDS.get(one.survives, one.survives),
         ]
         for one in claims
     ]
