@@ -39,6 +39,12 @@ def other(tmp_path_factory):
     subprocess.run([*git, "remove", "--force", str(folder)], check=True)
 
 
+def name_against() -> str:
+    """Return the abbreviated hash of the commit to compare with: what HEAD~1 means changes."""
+    git = ["git", "-C", str(ROOT), "rev-parse", "--short", AGAINST]
+    return subprocess.run(git, check=True, capture_output=True, text=True).stdout.strip()
+
+
 def run(root: Path, kind: str, threads: int = 1) -> dict[str, float]:
     done = subprocess.run(
         [sys.executable, str(Path(__file__).with_name("bench_loop_run.py")), str(root), kind],
@@ -53,7 +59,7 @@ def run(root: Path, kind: str, threads: int = 1) -> dict[str, float]:
 def test_a_loop_costs_no_more_than_at_the_commit_before(other, kind):
     """Half of the time is due against commit 792766a; against any other no more than it took."""
     pairs = [(run(ROOT, kind), run(other, kind)) for _ in range(3)]
-    row = {"kind": kind, "against": AGAINST, "kernels": name_kernels(), **describe_machine()}
+    row = {"kind": kind, "against": name_against(), "kernels": name_kernels(), **describe_machine()}
     for name in ("dofs", "analyses", *MEASURED):
         row[name] = median(own[name] for own, _ in pairs)
     for name in MEASURED:

@@ -12,7 +12,7 @@ from collections import Counter
 from pathlib import Path
 
 import pytest
-from test_bench_loop import AGAINST, RESULTS, ROOT, other  # noqa: F401 - a fixture
+from test_bench_loop import RESULTS, ROOT, name_against, other  # noqa: F401 - a fixture
 
 sys.path.insert(0, str(ROOT / "tests" / "workflow"))
 from study_runner import copy_code
@@ -44,15 +44,16 @@ def sum_jobs(folder: Path) -> Counter[str]:
 
 def test_share_of_each_rule_in_a_study(other, tmp_path):  # noqa: F811
     own, before = run_study(copy_code(tmp_path / "own")), run_study(other)
-    total = own.total()
+    total, against = own.total(), name_against()
     RESULTS.mkdir(parents=True, exist_ok=True)
     with (RESULTS / "study.csv").open("w", newline="", encoding="utf-8") as stream:
         writer = csv.writer(stream)
-        writer.writerow(["rule", "cpu_s", "share", f"cpu_s at {AGAINST}"])
+        writer.writerow(["rule", "cpu_s", "share", f"cpu_s at {against}"])
         for rule, seconds in own.most_common():
-            writer.writerow([rule, f"{seconds:.2f}", f"{seconds / total:.3f}", before[rule]])
+            figures = f"{seconds:.2f}", f"{seconds / total:.3f}", f"{before[rule]:.2f}"
+            writer.writerow([rule, *figures])
         writer.writerow(["all", f"{total:.2f}", "1", f"{before.total():.2f}"])
     shared = set(own) & set(before)
     ratio = sum(own[rule] for rule in shared) / sum(before[rule] for rule in shared)
-    print(f"{STUDY}: {total:.1f} s, {ratio:.2f} of {AGAINST} in the rules of both")
+    print(f"{STUDY}: {total:.1f} s, {ratio:.2f} of {against} in the rules of both")
     assert ratio < 1.25

@@ -1,6 +1,6 @@
 """The order at which values settle, observed on a third mesh, and whether it is one at all.
 
-The mesh error takes an order for granted (`mesh_convergence.ORDER`). With values on three meshes
+The mesh error takes an order for granted (`mesh_errors.ORDER`). With values on three meshes
 it can be seen: (v1 - v2) / (v2 - v3) = (h1^p - h2^p) / (h2^p - h3^p). Where the values turn back,
 or come nearer slower than in proportion to the element size, the extrapolated limit means little:
 the meshes are not in the asymptotic range.
