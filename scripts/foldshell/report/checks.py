@@ -93,7 +93,7 @@ def describe_share(ratio: float | None) -> str:
     """
     if ratio is None:
         return "–"
-    if ratio >= MOST:
+    if ratio >= MOST - ROUNDING:
         return "99 times or more"
     percent = 100 * ratio
     if round(percent) != 100 or percent == 100:

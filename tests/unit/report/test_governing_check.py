@@ -11,3 +11,4 @@ def test_a_check_that_is_open_does_not_hide_one_that_fails():
     assert find_governing([shear, stability, fine]) is stability
     assert find_governing([shear, fine]) is shear
     assert describe_share(99.0) == "99 times or more"
+    assert describe_share(98.9999999995) == "99 times or more"  # as files have it: a quotient
