@@ -103,12 +103,6 @@ def _is_alive(process: int) -> bool:
     return True
 
 
-def copy_whole(source: str | Path, target: str | Path) -> None:
-    """Copy the bytes of a file."""
-    with atomic_path(target) as temporary:
-        shutil.copyfile(source, temporary)
-
-
 def write_text_if_changed(path: str | Path, text: str) -> None:
     """Write `text`, unless the file holds just that already."""
     path = Path(path)
