@@ -5,7 +5,6 @@ import glob
 import hashlib
 import json
 import os
-import shutil
 import signal
 import stat
 import zipfile
