@@ -44,6 +44,14 @@ class Discretisation:
         """Sums local loads on outlines into the equations: its transpose, (size, 60 F m)."""
         return self.spreading.T.tocsr()
 
+    @cached_property
+    def summing(self) -> csr_matrix:
+        """Sums what is at element nodes into the facets' own nodes: (F R, 27 F m^2)."""
+        count, places = self.mesh.facet_nodes.shape
+        node = np.arange(count)[:, None] * places + self.elements.ravel()
+        one = np.ones(node.size)
+        return csr_matrix((one, (node.ravel(), np.arange(node.size))), (count * places, node.size))
+
 
 def plan_facets(vertices: np.ndarray, facets: np.ndarray) -> Plan:
     """The order in which the unknowns of vertices and edges are eliminated, for every mesh.
