@@ -35,7 +35,8 @@ def main(
     given = read_stage(settings, *ANALYSED, Figures)
     state = read_state(design, *files, given.combinations, classes_path)
     view = view_design(state, given, span_m, pattern)
-    write_design_vtu(vtu_path, state, view.material, given.combinations.all)
+    named = given.combinations.all
+    write_design_vtu(vtu_path, state, view.material, named, view.operators)
     write_lines_vtu(lines_path, view)
     size = (given.figures.width_px, given.figures.height_px)
     for name, picture in draw_design(view, size, tuple(pictures)).items():

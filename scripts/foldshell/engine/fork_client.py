@@ -95,7 +95,7 @@ class ForkServer:
     modules : names that the server imports whenever no script is asked for
     environment : of the server and all scripts; this process's own if None
     kept_mb : memory (MB) that forks may hold while they wait; the one that waits longest goes first
-    kept_most : how many may wait; no more can be of use at once than there are cores
+    kept_most : how many of a pool may wait; no more can be of use at once than there are cores
     """
 
     def __init__(
@@ -181,14 +181,18 @@ class ForkServer:
                 return
             with self._lock:
                 self._kept.append(_Kept(pool, affinity, fork, result.rss_mb))
-                while self._kept and self._exceeds():
-                    self._kept.pop(0).fork.close()
+                self._let_go(pool)
 
         return Job(fork, end, self._find_signal)
 
-    def _exceeds(self) -> bool:
-        held = sum(kept.rss_mb for kept in self._kept)
-        return held > self._kept_mb or len(self._kept) > self._kept_most
+    def _let_go(self, pool: str) -> None:
+        """End those that wait longest: of the pool where it has too many, of all beyond memory."""
+        own = [kept for kept in self._kept if kept.pool == pool]
+        if len(own) > self._kept_most:
+            self._kept.remove(own[0])
+            own[0].fork.close()
+        while self._kept and sum(kept.rss_mb for kept in self._kept) > self._kept_mb:
+            self._kept.pop(0).fork.close()
 
     def _find_signal(self, pid: int) -> int:
         """Return the signal that killed a fork, 0 if none or if the server is gone too."""

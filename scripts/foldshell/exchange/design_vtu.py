@@ -29,6 +29,7 @@ from foldshell.settings.field import Factors
 from foldshell.settings.material import Material
 from foldshell.shell.held_supports import list_supported_vertices
 from foldshell.shell.mesh import edge_polyline_nodes
+from foldshell.shell.stiffness import ShellOperators
 
 
 def cell_fields(state: DesignState) -> dict[str, np.ndarray]:
@@ -124,19 +125,21 @@ def write_design_vtu(
     state: DesignState,
     material: Material,
     combinations: Factors | None = None,
+    operators: ShellOperators | None = None,
 ) -> None:
     """Write design.vtu: result cells as triangles, nodes in m.
 
     `material` gives the utilization of every strength combination, `combinations` the factors of
-    load cases by name, which the legend then says.
+    load cases by name, which the legend then says, `operators` are those of the mesh if at hand. Its numbers are not compressed: digits of
+    forces are no pattern, a sixth less of the file is not worth half the time of writing it.
     """
     fields = cell_fields(state)
     if state.usable:
-        found = evaluate_combinations(state, material)
+        found = evaluate_combinations(state, material, operators)
         fields |= force_fields(state, found) | combination_cell_fields(state, found)
     points = point_fields(state)
     words = describe_fields(state, [*points, *fields], combinations or {})
-    write_vtu(path, state.cells.nodes, state.triangles, points, fields, words)
+    write_vtu(path, state.cells.nodes, state.triangles, points, fields, words, packed=False)
 
 
 def write_lines_vtu(path: str | Path, view: DesignView) -> None:

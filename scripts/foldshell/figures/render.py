@@ -74,6 +74,8 @@ def _open_window():
     window = vtkRenderWindow()
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(0)
+    window.SwapBuffersOff()
+    window.SetFrameBlitModeToNoBlit()  # nobody sees the window: pixels are read where they are drawn
     atexit.register(window.Finalize)
     return window
 
