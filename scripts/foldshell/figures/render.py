@@ -75,7 +75,7 @@ def _open_window():
     window.SetOffScreenRendering(1)
     window.SetMultiSamples(0)
     window.SwapBuffersOff()
-    window.SetFrameBlitModeToNoBlit()  # nobody sees the window: pixels are read where they are drawn
+    window.SetFrameBlitModeToNoBlit()  # nobody sees it: pixels are read where they are drawn
     atexit.register(window.Finalize)
     return window
 
