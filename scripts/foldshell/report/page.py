@@ -117,5 +117,5 @@ def shrink_picture(path: str | Path, width: int) -> str:
         whole = picture if picture.mode == "RGB" else picture.convert("RGB")
         small = whole.reduce(max(1, picture.width // width))
     stream = io.BytesIO()
-    small.save(stream, format="WEBP", quality=62, method=2)
+    small.save(stream, format="WEBP", quality=62, method=1)
     return "data:image/webp;base64," + base64.b64encode(stream.getvalue()).decode("ascii")
