@@ -130,8 +130,9 @@ def write_design_vtu(
     """Write design.vtu: result cells as triangles, nodes in m.
 
     `material` gives the utilization of every strength combination, `combinations` the factors of
-    load cases by name, which the legend then says, `operators` are those of the mesh if at hand. Its numbers are not compressed: digits of
-    forces are no pattern, a sixth less of the file is not worth half the time of writing it.
+    load cases by name, which the legend then says, `operators` are those of the mesh if at hand.
+    Numbers are not compressed: digits of forces are no pattern, and a sixth less of the file is not
+    worth half the time of writing it.
     """
     fields = cell_fields(state)
     if state.usable:

@@ -105,15 +105,24 @@ def _render(window, scene: Scene, camera: Camera) -> np.ndarray:
 
 
 def _read_pixels(window) -> np.ndarray:
+    """Return the image (height, width, 3) uint8 of a window, each pixel the mean of its parts."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
-    from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
 
     width, height = window.GetSize()
-    pixels = vtkUnsignedCharArray()
-    window.GetPixelData(0, 0, width - 1, height - 1, 0, pixels, 0)
-    rows = vtk_to_numpy(pixels).reshape(height, width, 3)
-    small = np.asarray(Image.fromarray(rows).reduce(OVERSAMPLING))
-    return np.ascontiguousarray(small[::-1])  # VTK begins at the lower left
+    pixels = _hold_pixels()
+    window.GetRGBACharPixelData(0, 0, width - 1, height - 1, 0, pixels)
+    parts = vtk_to_numpy(pixels)[: width * height]  # as Pillow holds them: it copies none
+    rows = Image.frombuffer("RGBX", (width, height), parts, "raw", "RGBX", 0, 1)
+    small = np.asarray(rows.reduce(OVERSAMPLING))
+    return np.ascontiguousarray(small[::-1, :, :3])  # VTK begins at the lower left
+
+
+@lru_cache(maxsize=1)
+def _hold_pixels():
+    """Return the array of this process that pixels are read into: a new one is cleared first."""
+    from vtkmodules.vtkCommonCore import vtkUnsignedCharArray
+
+    return vtkUnsignedCharArray()
 
 
 def _make_poly_data(points: np.ndarray, cells: np.ndarray, lines: bool = False):

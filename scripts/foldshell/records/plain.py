@@ -110,7 +110,7 @@ def _check_list(inner: tuple, value: Any, place: str, closed: bool) -> tuple:
     if not isinstance(value, list | tuple) or fixed not in (None, len(value)):
         words = "a list" if fixed is None else f"a list of {fixed}"
         raise DamageError(f"{place}: {_shorten(value)}: must be {words}")
-    if fixed is None and (inner[0] is Any or inner[0] in WORDS and _are_all(inner[0], value)):
+    if fixed is None and (inner[0] is Any or (inner[0] in WORDS and _are_all(inner[0], value))):
         return tuple(value)
     hints = inner if fixed is not None else inner[:1] * len(value)
     pairs = enumerate(zip(hints, value, strict=True))
