@@ -96,9 +96,11 @@ def share_within(distance: np.ndarray, width: float) -> np.ndarray:
 
     distance (..., 3 q) m, three to a cell one after the other; returns (..., q) without unit.
     """
-    low, mid, high = np.moveaxis(
-        np.sort(distance.reshape(*distance.shape[:-1], -1, 3), axis=-1), -1, 0
-    )
+    # three values in order: a sort of rows of three takes five times as long
+    one, two, three = np.moveaxis(distance.reshape(*distance.shape[:-1], -1, 3), -1, 0)
+    less, more = np.minimum(one, two), np.maximum(one, two)
+    low, high = np.minimum(less, three), np.maximum(more, three)
+    mid = np.maximum(less, np.minimum(more, three))
     with np.errstate(divide="ignore", invalid="ignore"):
         near = (width - low) ** 2 / ((mid - low) * (high - low))
         far = 1 - (high - width) ** 2 / ((high - low) * (high - mid))
