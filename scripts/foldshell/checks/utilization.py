@@ -5,12 +5,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from foldshell.checks.strength import CRITERIA
-from foldshell.files.threads import run_parts
+from foldshell.files.threads import divide_rows, run_parts
 from foldshell.settings.material import Material
 from foldshell.shell.analysis import ShellModel
 from foldshell.shell.results import panel_area
 from foldshell.shell.stiffness import ShellOperators
 from foldshell.shell.stress import outer_stresses, sample_basis, sample_points, stress_resultants
+
+ELEMENTS = 512
+"""Elements of a large mesh whose stresses stand in memory at once."""
 
 
 @dataclass(frozen=True)
@@ -77,9 +80,10 @@ def utilization_of_combinations(
     def evaluate(column: int) -> None:
         """Fill in the criterion of one combination at every point."""
         own = resultants.column(column)
-        stress = outer_stresses(own, thickness, basis)[:, :, 0]
-        value = criterion(np.moveaxis(stress, 1, -1), material).max(axis=0)
-        combination[column] = value.reshape(combination.shape[1:])
+        for some in divide_rows(len(thickness), operators.mesh.dof_count, ELEMENTS):
+            stress = outer_stresses(own.elements(some), thickness[some], basis)[:, :, 0]
+            value = criterion(np.moveaxis(stress, 1, -1), material).max(axis=0)
+            combination[column, some] = value.reshape(-1, *points.shape[:2])
 
     list(run_parts(evaluate, range(displacement.shape[1])))
     return combination

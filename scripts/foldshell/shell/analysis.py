@@ -6,6 +6,7 @@ from functools import cached_property
 
 import numpy as np
 
+from foldshell.files.threads import LARGE
 from foldshell.loads.cases import SurfaceLoad, combination_matrix
 from foldshell.settings.analysis import Analysis
 from foldshell.settings.field import Factors
@@ -192,14 +193,19 @@ class ShellAnalysis:
         self, effort: Effort, start_modes: np.ndarray | None, perfect: bool
     ) -> BucklingResult:
         """Search for buckling, or go on; the first correction of second order rides along where
-        that begins with the `perfect` state of first order."""
+        that begins with the `perfect` state of first order.
+
+        Of a large mesh the vectors of the search take more memory than a new search takes time: the
+        next run begins one from the modes that it is given.
+        """
         search = self._search
         if search is None:
-            if perfect:
+            if perfect and self._bending is None:
                 self._riders = Riders(self._solution.push(*self._perfect_state()))
             state = self._by_case, self._strains, self._factors
             search = self._solution.search_buckling(*state, self._riders)
-        self._search = None if effort is FULL else search
+        large = len(self._model.pattern.dofs) >= LARGE
+        self._search = None if effort is FULL or large else search
         return search.run(effort, start_modes)
 
     def _perfect_state(self) -> tuple[np.ndarray, State, np.ndarray]:

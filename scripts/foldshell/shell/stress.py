@@ -33,6 +33,10 @@ class StressResultants:
         """Return those of some load columns."""
         return StressResultants(self.force[..., part], self.moment[..., part], self.jump[..., part])
 
+    def elements(self, part: slice) -> "StressResultants":
+        """Return those of some elements."""
+        return StressResultants(self.force[part], self.moment[part], self.jump[part])
+
 
 def stress_resultants(
     operators: ShellOperators,

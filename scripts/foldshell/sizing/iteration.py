@@ -135,8 +135,10 @@ def _analyse_in_loop(case: AnalysisCase, task: IterationTask) -> Analysed:
         return done
     rough = effort.second_order_tolerance > 0 and done.utilization is not None
     if rough and _is_close(done) and _goes_on(done):
-        effort = replace(effort, second_order_tolerance=0.0)
-        done = evaluate(case, task, analysis.bend(result.buckling, effort), effort)
+        effort, buckling = replace(effort, second_order_tolerance=0.0), result.buckling
+        del done, result  # large states: there is room for one
+        result = analysis.bend(buckling, effort)
+        done = evaluate(case, task, result, effort)
     if not _goes_on(done) or is_factor_close(sizing, result.least_factor):
         found = result.buckling.modes if result.buckling else modes
         done = evaluate(case, task, analysis.run(FULL, found), FULL)

@@ -3,13 +3,15 @@
 import numpy as np
 import pytest
 
+from foldshell.checks import utilization
 from foldshell.files import threads
 from foldshell.loads.cases import make_load_cases
 from foldshell.settings.loads import Combinations, Loads
 from foldshell.settings.material import Material
-from foldshell.shell import assembly, linear_solver, subspace
-from foldshell.shell.analysis import analyse_shell, build_model
+from foldshell.shell import analysis, assembly, linear_solver, subspace
+from foldshell.shell.analysis import ShellAnalysis, analyse_shell, build_model
 from foldshell.shell.dissection import rank_by_dissection
+from foldshell.shell.effort import COLD, FULL, USUAL
 from foldshell.shell.mesh import build_mesh
 
 
@@ -29,22 +31,26 @@ def folded_mesh(rows: int, columns: int, turned: float = 0.0):
 @pytest.fixture
 def counts_as_large(monkeypatch):
     """Let every mesh be worked on as large ones are, with short parts."""
-    for module in (threads, assembly, linear_solver):
+    for module in (threads, assembly, linear_solver, analysis):
         monkeypatch.setattr(module, "LARGE", 100)
     whole = threads.divide_rows
-    for module in (assembly, subspace):
+    for module in (assembly, subspace, utilization):
         monkeypatch.setattr(module, "divide_rows", lambda count, size, _=0: whole(count, size, 37))
     yield
     threads.use_threads(1)
 
 
-def analyse(mesh, held):
-    model = build_model(mesh, held, 0.2)
+def state_of(mesh, held):
+    """Return what an analysis of the mesh is told: 0.1 m of concrete with the default loads."""
     material = Material()
     cases = make_load_cases(Loads(), material.unit_weight)
     thickness = np.full(len(mesh.elements), 0.1)
     factors = {**Combinations().strength, **Combinations().deflection}
-    return analyse_shell(model, thickness, material, cases, factors)
+    return build_model(mesh, held, 0.2), thickness, material, cases, factors
+
+
+def analyse(mesh, held):
+    return analyse_shell(*state_of(mesh, held), effort=USUAL)
 
 
 def test_the_same_bytes_on_one_thread_and_on_two(counts_as_large):
@@ -68,6 +74,33 @@ def test_a_large_mesh_has_the_answer_of_a_small_one(counts_as_large, monkeypatch
     gap = np.abs(divided.displacement - whole.displacement).max()
     assert gap < 1e-9 * np.abs(whole.displacement).max()
     assert np.allclose(divided.buckling.factors, whole.buckling.factors, rtol=1e-6)
+
+
+def test_utilization_in_blocks_of_elements_is_that_of_all_at_once(counts_as_large, monkeypatch):
+    """Each value comes of its own element's forces: the same to rounding."""
+    mesh, held = folded_mesh(6, 8)
+    model, thickness, material, *_ = state_of(mesh, held)
+    moved = np.random.default_rng(5).normal(size=(mesh.dof_count, 3))
+    asked = model, moved, thickness, material
+    blocks = utilization.compute_utilization(*asked)
+    monkeypatch.undo()
+    whole = utilization.compute_utilization(*asked)
+    assert np.allclose(blocks.combination, whole.combination, rtol=1e-12, atol=0)
+    assert np.array_equal(blocks.governing, whole.governing)
+
+
+def test_a_search_that_was_let_go_ends_where_a_cold_one_does(counts_as_large):
+    """From a state known roughly, whose vectors are gone, to the factors and displacements of a
+    full analysis from nothing: 1e-6 and 1e-8, the tolerances of a delivered state."""
+    state = state_of(*folded_mesh(6, 8))
+    in_steps = ShellAnalysis(*state)
+    rough = in_steps.run(COLD)
+    assert in_steps._search is None
+    full = in_steps.run(FULL, rough.buckling.modes)
+    cold = ShellAnalysis(*state).run(FULL)
+    assert np.allclose(full.buckling.factors, cold.buckling.factors, rtol=1e-6)
+    gap = np.abs(full.displacement - cold.displacement).max()
+    assert gap < 2e-8 * np.abs(cold.displacement).max()
 
 
 @pytest.mark.parametrize("turned", [0.0, 0.7])
