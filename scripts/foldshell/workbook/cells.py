@@ -8,8 +8,7 @@ bounds its memory. So the sheet's XML is streamed here, and tests compare with b
 import math
 import re
 from collections.abc import Iterator
-from dataclasses import dataclass
-from typing import Any
+from typing import Any, NamedTuple
 from xml.parsers import expat
 
 from foldshell.files.errors import InputError
@@ -28,8 +27,7 @@ _BUILT_IN_PERCENT = {9, 10}
 _LITERALS = re.compile(r'"[^"]*"|\\.|_.|\*.|\[(?!h|m|s)[^\]]*\]', re.IGNORECASE)
 
 
-@dataclass(frozen=True)
-class Cell:
+class Cell(NamedTuple):
     """One cell: `kind` is number, text, boolean, date, percent, error or no_value (a formula)."""
 
     row: int
