@@ -15,7 +15,8 @@ MODULES = [
 # fmt: on
 """In the order in which they are needed: scripts, and what they import only where they use it."""
 
-POOLS = {"analyse": "shell", "group": "shell", "draw": "pictures"}
-"""Rules whose process stays for the next job of a pool. Analyses of a design follow each other: the
-next one finds the mesh's operators, the order of elimination and memory there, a quarter of its
-time. Pictures find the renderer set up."""
+_SHELL = "pattern", "fold", "mesh", "start", "analyse", "resize", "group", "size"
+POOLS = dict.fromkeys(_SHELL, "shell") | {"draw": "pictures"}
+"""Rules whose process stays for the next job of a pool. Jobs of a design follow each other: the
+next analysis finds the mesh's operators, the order of elimination and memory there, a quarter of
+its time, and a short job memory that is its own already. Pictures find the renderer set up."""
