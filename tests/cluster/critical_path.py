@@ -17,9 +17,11 @@ AFTER = {
     "draw": ("size",),
     "neutral_model": ("size",),
     "mesh_convergence": ("size",),
-    "check": ("size",),
+    "check": ("mesh_convergence",),
+    "reinforcement": ("check",),
+    "design_workbook": ("check",),
     "compare": ("neutral_model", "mesh_convergence"),
-    "page": ("draw", "compare", "check"),
+    "page": ("draw", "compare", "reinforcement"),
     "sheet": ("draw", "compare", "check"),
 }
 """Jobs after the loop of a design, and what each waits for."""
@@ -45,7 +47,7 @@ def read_seconds(results: Path) -> dict[str, dict[str, float]]:
         rule = "size" if rule in LOOP else rule
         times = found.setdefault(name, {})
         times[rule] = times.get(rule, 0.0) + seconds
-    return found
+    return {name: times for name, times in found.items() if "mesh" in times}
 
 
 def make_jobs(
@@ -71,7 +73,7 @@ def make_jobs(
         for rule, needs in AFTER.items():
             names = tuple(f"{name} {need}" for need in needs)
             jobs[f"{name} {rule}"] = Job(seconds.get(rule, 0.0) + start, 2, names)
-        ends += [f"{name} {rule}" for rule in ("page", "sheet")]
+        ends += [f"{name} {rule}" for rule in ("page", "sheet", "design_workbook")]
     for number, one in enumerate(last):
         jobs[f"study {number}"] = Job(one + start, 2, tuple(ends))
         ends = [f"study {number}"]
