@@ -2,7 +2,8 @@
 same where it is killed there in the middle and ended here.
 
 `FOLDSHELL_CLUSTER_STUDY` names the study (supports; table1 takes an hour on two cores), and
-`FOLDSHELL_CLUSTER_RESULTS` a folder of its results by this version, made on this machine.
+`FOLDSHELL_CLUSTER_RESULTS` a folder of its results by this version, made on this machine with the
+same SOURCE_DATE_EPOCH (`MINUTE`): the report names the minute of its making.
 """
 
 import os
@@ -25,6 +26,7 @@ STUDY = os.environ.get("FOLDSHELL_CLUSTER_STUDY", "supports")
 KNOWN = os.environ.get("FOLDSHELL_CLUSTER_RESULTS", "")
 OPTIONS = ("--config", f"study={STUDY}")
 SUBMISSIONS_MAX = 90
+MINUTE = "1700000000"
 
 pytest.importorskip("snakemake_executor_plugin_slurm")
 pytestmark = [
@@ -32,6 +34,14 @@ pytestmark = [
     pytest.mark.slow,
     pytest.mark.skipif(bool(why_not()), reason=why_not() or "-"),
 ]
+
+
+@pytest.fixture(scope="module", autouse=True)
+def minute():
+    """Let every report be of the same minute."""
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv("SOURCE_DATE_EPOCH", MINUTE)
+        yield
 
 
 @pytest.fixture(scope="module")

@@ -25,14 +25,20 @@ class Provenance:
 
 
 def find_provenance(project: str | Path) -> Provenance:
-    """Return what makes a report now, from the project's folder."""
+    """Return what makes a report now, from the project's folder.
+
+    Where the environment holds a SOURCE_DATE_EPOCH (s since 1970; reproducible-builds.org), that is
+    taken for now, so that reports made at other minutes have the same bytes.
+    """
     versions = {"Python": platform.python_version()}
     for name in PACKAGES:
         try:
             versions[name] = version(name)
         except PackageNotFoundError:
             continue
-    made = time.strftime("%d %B %Y, %H:%M UTC", time.gmtime())
+    fixed = os.environ.get("SOURCE_DATE_EPOCH", "")
+    now = time.gmtime(int(fixed) if fixed.isdecimal() else None)
+    made = time.strftime("%d %B %Y, %H:%M UTC", now)
     return Provenance(made, describe_commit(project), versions, describe_machine())
 
 
