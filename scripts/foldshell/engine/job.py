@@ -109,6 +109,14 @@ def _unstored(path: str, home: Path) -> str:
     return Path(top.name, Path(path).relative_to(top)).as_posix()
 
 
+def _placeless(text: str) -> str:
+    """Return a path in the folder of the run relative to it, any other text as it is: a study that
+    runs in another folder has the same records."""
+    here = str(Path.cwd())
+    inside = text == here or text.startswith(here + "/")
+    return Path(text).relative_to(here).as_posix() if inside else text
+
+
 def _plain(value: Any, home: Path) -> Any:
     """Return parameters as plain data, to be hashed: named lists of Snakemake become lists."""
     if isinstance(value, Mapping):
@@ -116,5 +124,5 @@ def _plain(value: Any, home: Path) -> Any:
     if isinstance(value, list | tuple):
         return [_plain(item, home) for item in value]
     if isinstance(value, str):
-        return _unstored(value, home)
+        return _placeless(_unstored(value, home))
     return value if isinstance(value, int | float | bool | None) else str(value)
