@@ -96,9 +96,8 @@ def _relative(path: str | Path, home: Path) -> str:
 
 def _shorten(path: str, home: Path) -> str:
     """Return a path without what tells of the machine: relative to the project, else its name."""
-    here = Path.cwd()
-    full = Path(_unstored(path, home)).absolute()
-    return full.relative_to(here).as_posix() if full.is_relative_to(here) else Path(path).name
+    known = _placeless(str(Path(_unstored(path, home)).absolute()))
+    return Path(path).name if Path(known).is_absolute() else known
 
 
 def _unstored(path: str, home: Path) -> str:

@@ -58,6 +58,7 @@ class Subspace:
         """
 
         def apply(part: slice) -> np.ndarray:
+            """Return the images of some of the vectors."""
             return -self.products.mix(self.combine(coefficients[:, part]), factors[:, part])
 
         parts = divide(coefficients.shape[1], self.size, LEAST_COLUMNS)
@@ -102,6 +103,7 @@ class Subspace:
         basis = self._room[0, : self.count]
 
         def project(part: slice) -> np.ndarray:
+            """Return the products of all vectors with some of the new ones."""
             return self.products.project(basis, slice(begin + part.start, begin + part.stop))
 
         parts = divide(self.count - begin, self.size, LEAST_COLUMNS)
@@ -140,6 +142,7 @@ def _take_away(vectors, forces, basis, own_forces) -> None:
     overlap = _multiply(vectors, own_forces)
 
     def subtract(part: slice) -> None:
+        """Take it from some entries of every vector."""
         vectors[:, part] -= overlap @ basis[:, part]
         forces[:, part] -= overlap @ own_forces[:, part]
 
@@ -159,6 +162,7 @@ def _orthonormalise(vectors: np.ndarray, forces: np.ndarray) -> tuple[np.ndarray
     kept = len(mix)
 
     def turn(part: slice) -> None:
+        """Mix the vectors in some of their entries."""
         vectors[:kept, part] = mix @ vectors[:, part]
         forces[:kept, part] = mix @ forces[:, part]
 
